@@ -1,7 +1,7 @@
-"""Terrain, scenes and buildings as a show keeps clear of them: at places, along ways, and from above.
+"""Terrain, scenes and buildings as obstacles of a show: clearance at places, along paths, and from above.
 
-Pictures are pushed apart thousands of times, and most are high over everything: places above the highest
-corner of what lies in their box are clear, and nothing else is asked of them.
+Pictures are pushed apart thousands of times, and most are far above all obstacles. Therefore places above the
+highest corner of the obstacles in their box count as clear without another test.
 """
 
 from __future__ import annotations
@@ -29,14 +29,16 @@ from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.over_ground import OUTSIDE_M, OverGround, heights_over
 
 CELL_M = 8.0
-"""Metres to which boxes in the plan are rounded, so that what lies in them is looked up once."""
+"""Size to which horizontal boxes are rounded, so that their content is looked up once."""
 CLOSED_M = 4e-7
-"""Gap to which distances and heights are proved, metres: less than ``clearances.ROUNDING_M``."""
+"""Accuracy of proved distances and heights: below ``clearances.ROUNDING_M``."""
 UPSIDE_DOWN = np.array([1.0, 1.0, -1.0])
 
 
 class _Under(NamedTuple):
-    """What lies in a box of the plan: z of the highest corner; whole : whether no ground ends there."""
+    """The content of a horizontal box: z of the highest corner; whole : whether the terrain
+    covers all of it.
+    """
 
     top: float
     whole: bool
@@ -44,22 +46,22 @@ class _Under(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OverTerrain:
-    """The least height over ground that rises, or the greatest: ``OverGround``, for whole fleets."""
+    """The least or greatest height over terrain: ``OverGround``, for whole fleets."""
 
     kept: OverGround
     _known: dict[tuple[int, ...], _Under] = field(default_factory=dict)
 
     @property
     def owner(self) -> Owner:
-        """Return whose limit it is."""
+        """Return the owner of the limit."""
         return self.kept.owner
 
     def owner_at(self, _: Array) -> Owner:
-        """Return whose limit it is at a place, (3,)."""
+        """Return the owner of the limit at a place, (3,)."""
         return self.kept.owner
 
     def lack(self, p: Array) -> Array:
-        """Return by how many metres the height is missed at places (n, 3), at most 0 where it is kept."""
+        """Return the missing height at places (n, 3), (n,), m; at most 0 where the limit is kept."""
         if not len(p):
             return np.zeros(0)
         least = self._under(p).top + self.kept.clearance - self._turned(p)[:, 2]
@@ -68,14 +70,14 @@ class OverTerrain:
         return -self.kept.slack(p)
 
     def up(self, p: Array, *, every: bool) -> Array:
-        """Return by how much places (n, 3) have to rise to keep the height, metres, at least 0; (n,)."""
+        """Return the rise with which places (n, 3) keep the height, (n,), m, at least 0."""
         if self.kept.flipped:
             return np.zeros(len(p))
         lack = self.lack(p)
         return np.where(lack >= OUTSIDE_M, inf, np.maximum(lack, 0.0))
 
     def worst(self, pieces: Pieces) -> float:
-        """Return by how much the height is missed anywhere on pieces, proved, metres; at most 0 if kept."""
+        """Return the largest missing height on pieces, proved, m; at most 0 if the limit is kept."""
         pieces = Pieces(pieces.low, pieces.high, self._turned(pieces.ctrl))
         ground, clearance = self.kept.ground, self.kept.clearance
         low, high = pieces.ctrl.min(axis=1), pieces.ctrl.max(axis=1)
@@ -93,7 +95,7 @@ class OverTerrain:
         return OUTSIDE_M if isinstance(found, NoGround) else clearance - found.proven
 
     def _leaves(self, pieces: Pieces, low: Array, high: Array) -> bool:
-        """Tell whether pieces come to where the ground ends, or begin beyond it."""
+        """Tell whether pieces cross the terrain's border, or start beyond it."""
         if np.isnan(height_at(self.kept.ground, pieces.ctrl[:, 0, :2])).any():
             return True
         near = _those(in_plan(self.kept.ground.edge, low, high), pieces)
@@ -116,9 +118,10 @@ class OverTerrain:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BesideSurface:
-    """A distance kept from all triangles of a tree: of a scene, of buildings, or of terrain, as from cliffs.
+    """A distance to keep from all triangles of a tree: of a scene, of buildings, or of terrain such as
+    cliffs.
 
-    mesh : what they belong to, as ``BesideMesh``, None of terrain, which has no inside
+    mesh : their ``BesideMesh``, None for terrain, which has no inside
     """
 
     owner: Owner
@@ -128,11 +131,11 @@ class BesideSurface:
     _known: dict[tuple[int, ...], float] = field(default_factory=dict)
 
     def owner_at(self, p: Array) -> Owner:
-        """Return the owner of what is nearest to a place, (3,)."""
+        """Return the owner of the surface nearest to a place, (3,)."""
         return self.owner if self.mesh is None else self.mesh.owner_at(p)
 
     def lack(self, p: Array) -> Array:
-        """Return by how many metres the distance is missed at places (n, 3), at most 0 where it is kept."""
+        """Return the missing distance at places (n, 3), (n,), m; at most 0 where the distance is kept."""
         least = self._tops(p) + self.clearance - p[:, 2]
         low = least > 0.0
         if not low.any():
@@ -142,10 +145,10 @@ class BesideSurface:
         return lack
 
     def up(self, p: Array, *, every: bool) -> Array:
-        """Return by how much places (n, 3) have to rise to be over all that is near in the plan, metres.
+        """Return the rise that brings places (n, 3) above all that is near in the horizontal plane, (n,), m.
 
-        every : whether that is asked of all, not only of those that are too near as it is; of terrain nothing
-            is asked otherwise, for who keeps the height over it is hardly ever too near to it
+        every : whether all places must be above, or only those that are too near at present; for terrain the
+            result is then 0, because a place with enough height over it is hardly ever too near to it
         """
         if self.mesh is None and not every:
             return np.zeros(len(p))
@@ -163,9 +166,9 @@ class BesideSurface:
         return found
 
     def worst(self, pieces: Pieces) -> float:
-        """Return by how much the distance is missed anywhere on pieces, proved; at most 0 if it is kept.
+        """Return the largest missing distance on pieces, proved, m; at most 0 if the distance is kept.
 
-        A way that begins outside of what is closed, and keeps away from all triangles, stays outside.
+        A path that starts outside of a closed mesh, and keeps away from all triangles, stays outside.
         """
         low, high = pieces.ctrl.min(axis=1), pieces.ctrl.max(axis=1)
         near = _those(within(self.surface, low, high, self.clearance), pieces)
@@ -181,7 +184,7 @@ class BesideSurface:
         return nearest(self.surface, p, 2.0 * self.clearance).distance - self.clearance
 
     def _tops(self, p: Array) -> float:
-        """Return z of the highest corner of all that is near places in the plan, or minus infinity."""
+        """Return z of the highest corner near places in the horizontal plane, or minus infinity."""
         if not len(p) or not len(self.surface):
             return -inf
         low, high = _rounded(p, self.clearance)
@@ -196,7 +199,7 @@ Standing = OverTerrain | BesideSurface
 
 
 def surfaces_of(mission: MissionIR, fleet: Fleet) -> tuple[Standing, ...]:
-    """Return what of terrain, scenes and buildings a fleet keeps clear of."""
+    """Return the terrain, scenes and buildings that a fleet must keep clear of."""
     return tuple(_surfaces(mission, fleet))
 
 
@@ -214,14 +217,14 @@ def _surfaces(mission: MissionIR, fleet: Fleet) -> Iterator[Standing]:
 
 
 def _rounded(p: Array, reach: float) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return cells of the box about places in the plan, and ``reach`` metres more, rounded outwards."""
+    """Return the cells of the horizontal box of places, enlarged by ``reach``, m, and rounded outwards."""
     low = np.floor((p[:, :2].min(axis=0) - reach) / CELL_M)
     high = np.ceil((p[:, :2].max(axis=0) + reach) / CELL_M)
     return (int(low[0]), int(low[1])), (int(high[0]), int(high[1]))
 
 
 def _those(pairs: Pairs, pieces: Pieces) -> Mask:
-    """Tell which pieces are in pairs, (M,)."""
+    """Return the mask of pieces that occur in pairs, (M,)."""
     found = np.zeros(len(pieces), dtype=bool)
     found[pairs.item] = True
     return found
