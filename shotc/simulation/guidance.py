@@ -30,7 +30,7 @@ PERIOD_S = 0.5
 """Seconds between two replans."""
 
 LIMIT_S = 10.0
-"""Seconds after which a replanner is given up as hanging; nobody could fly with it."""
+"""Time after which a replanner counts as hanging; a drone could not be flown with it."""
 
 LOST_M = 4.0
 """Standard deviation of a target's position, above which a drone does not fly beside it, metres."""

@@ -77,7 +77,9 @@ def taken(modes: Modes, measurement: Measurement) -> Modes:
 
 
 def expected(modes: Modes, times: Array, models: tuple[MotionModel, ...]) -> Array:
-    """Return place and velocity at times (M,), each model by itself as far as it is believed; (M, R, 6)."""
+    """Return position and velocity at times (M,), the mean of the models' predictions by weight;
+    (M, R, 6).
+    """
     found = [
         ahead(each, times - modes.time, model) for each, model in zip(modes.estimates, models, strict=True)
     ]

@@ -23,12 +23,13 @@ ROUNDING_S = 1e-6
 """Seconds of tolerance for rounding of a time stamp plus a delay: 0.2 + 0.1 is more than 0.3."""
 
 WALKS = (MotionModel(0.2, memory=0.7, drift=0.001), MotionModel(1.0, memory=0.7, drift=1.0))
-"""Models of a tracker: one who keeps to a way, about which he weaves, and one who leaves it.
+"""Models of a tracker: a walker who stays on a path and weaves about it, and one who leaves it.
 
-The first takes steps aside of 0.3 m/s (the root of q tau / 2) that are over after a second, on a way that
-bends by 0.1 m/s in ten. A place 3 s ahead of a walker whose place wanders by 0.5 m with a memory of 3 s is
-then off by 0.55 m; where the velocity of the moment is led on, by 0.75 m. From one plan to the next it moves
-by 0.27 m instead of 0.62 m (a straight walker known by RTK: 0.18 and 0.37 m).
+The first weaves with 0.3 m/s (the root of q tau / 2) and a correlation time of about a second, on a path
+whose velocity changes by 0.1 m/s in ten seconds. For a walker whose position wanders by 0.5 m with a
+correlation time of 3 s, the position predicted 3 s ahead is then wrong by 0.55 m; extrapolating the present
+velocity gives 0.75 m. From one plan to the next the prediction moves by 0.27 m instead of 0.62 m (for a
+straight walker known by RTK: 0.18 and 0.37 m).
 """
 
 

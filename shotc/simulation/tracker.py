@@ -36,8 +36,8 @@ class Tracker:
         """Return a tracker initialised with a satellite position and a velocity, (R, 3) each."""
         mean = np.concatenate([place, velocity, velocity, np.zeros_like(place)], axis=1)
         off = models[0].bias ** 2
-        # A place that a receiver tells is off by as much as the receiver, the other way. The first velocity
-        # is that of the way.
+        # The receiver's bias shifts a measured position, so the errors of position and bias are
+        # anticorrelated. The first velocity is that of the path.
         spread = np.zeros((4, 4))
         spread[1:3, 1:3] = FIRST_VARIANCE
         spread[0, 0], spread[3, 3], spread[0, 3], spread[3, 0] = FIRST_VARIANCE + off, off, -off, -off
@@ -62,7 +62,9 @@ class Tracker:
         return stepped(self._past[-1][0], time, self.models).whole
 
     def ahead(self, times: Array) -> Array:
-        """Return place and velocity at times (M,) from ``now`` on, as taken then; (M, R, 6), metres, m/s."""
+        """Return position and velocity, predicted from the last estimate to times (M,), (M, R,
+        6), m and m/s.
+        """
         return expected(stepped(self._past[-1][0], float(times[0]), self.models), times, self.models)
 
     def _forget(self) -> None:

@@ -77,7 +77,7 @@ class Director:
 
     @property
     def lifted(self) -> float:
-        """Return by how much the fleet rises over what lies between its places, at most, metres."""
+        """Return the largest rise of the fleet over obstacles between its formations, m."""
         return self.score.lifted
 
     def trajectory(self, images: Images) -> tuple[FleetTrajectory, list[Diagnostic]]:

@@ -193,9 +193,9 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Roo
 def no_way_over(
     mission: MissionIR, fleet: Fleet, picture: Picture | None, lacks: tuple[RoomLack, RoomLack]
 ) -> Diagnostic:
-    """Return D160: something is in the straight ways of a fleet, and it cannot rise over it.
+    """Return D160: an obstacle is in the straight paths of a fleet, and the fleet cannot rise over it.
 
-    lacks : what the straight ways lack, and what the best lacks of those that rise
+    lacks : the violation of the straight paths, and the least violation of paths that rise
     """
     straight, risen = lacks
     what, beside = _in_the_way(mission, straight)
@@ -217,7 +217,7 @@ def no_way_over(
 
 
 def wave_in_the_way(mission: MissionIR, fleet: Fleet, picture: Picture, lack: RoomLack) -> Diagnostic:
-    """Return D161: drones of a wave come too near to something on their straight ways."""
+    """Return D161: drones of a wave come too near to an obstacle on their straight paths."""
     what, beside = _in_the_way(mission, lack)
     return Diagnostic(
         "D161",
@@ -229,7 +229,7 @@ def wave_in_the_way(mission: MissionIR, fleet: Fleet, picture: Picture, lack: Ro
 
 
 def _in_the_way(mission: MissionIR, lack: RoomLack) -> tuple[str, Label]:
-    """Return what a move lacks room of, and where the mission says so."""
+    """Return the limit that a move violates, in words, and a label on it in the mission."""
     if lack.of is None:
         return CEILING.words, mission.origins.key(CEILING.path, "the rule")
     return lack.of.owner.words, mission.origins.key(lack.of.owner.path, "what stands there")

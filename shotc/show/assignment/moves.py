@@ -41,7 +41,7 @@ class Mover:
         self._scale = np.array([1.0, 1.0, stretch(fleet.apart)])
         room = room_of(mission, fleet)
         high = mission.rules.max_height
-        # Over terrain the greatest height is one of the surfaces that are kept.
+        # Over terrain the greatest height is one of the surfaces to keep clear of.
         high = inf if high is None or not isfinite(high) or mission.terrain is not None else high
         self.sky = MoveSurroundings(room, Heights(room.lowest, high))
 
@@ -67,9 +67,9 @@ class Mover:
         return move
 
     def straight(self, ends: Ends, pace: float, picture: Picture | None) -> Motion:
-        """Return the fastest move on straight ways; where something is in their way lifted over it.
+        """Return the fastest move on straight paths, lifted over obstacles if necessary.
 
-        Where that has no room, on arcs past it, unless straight ways are asked for.
+        If there is no room to rise, the fleet moves on arcs past them, unless straight paths are requested.
         """
         asked = self._asked(pace, picture)
         move = fastest(ends[1] - ends[0], self.fleet.limits, pace, asked.easing)
@@ -88,7 +88,9 @@ class Mover:
         return move
 
     def _lacking(self, fault: Diagnostic) -> None:
-        """Keep the first fault of a fleet's moves: those after it begin where that one would end."""
+        """Keep only the first fault of a fleet's moves, because later moves start where the faulty one would
+        end.
+        """
         if not self.faults:
             self.faults.append(fault)
 

@@ -1,7 +1,7 @@
-"""Moves led over what lies between two formations: ground that rises, houses, zones, targets.
+"""Moves that rise over obstacles between two formations: rising ground, buildings, zones, targets.
 
-How much higher a fleet has to be is read at places along its way; that all of it is clear then is proved of
-the flown splines, and where it is not, the fleet rises higher.
+The required rise of a fleet is evaluated at points of its path. The flown splines are then proved clear. If
+the proof fails, the fleet rises higher.
 """
 
 from __future__ import annotations
@@ -21,24 +21,28 @@ from shotc.show.goals.room import DisplaySurroundings, RoomLack
 from shotc.show.solvers.lifted_move import LEAST_M, Course, LiftedMove, lifted
 
 TRIES = ((1.0, 0.0, False), (1.1, 0.2, False), (1.25, 0.6, False), (1.0, 0.2, True), (1.15, 0.6, True))
-"""Factors of the heights that are needed, metres beyond them, and whether all is passed over that is near."""
+"""Factor on the required heights, additional height in metres, and whether the fleet rises over all that is
+near.
+"""
 
 
 class LiftedCandidate(NamedTuple):
-    """A move that is lifted, and what it lacks most all the same."""
+    """A lifted move, and its largest remaining violation."""
 
     move: LiftedMove
     lack: RoomLack
 
 
 class MoveSurroundings(NamedTuple):
-    """Where moves may be: clear of what is in a room, and between two heights."""
+    """The allowed space of moves: clear of the obstacles of a room, and between two heights."""
 
     room: DisplaySurroundings
     heights: Heights
 
     def lack(self, ends: Ends, move: Motion) -> RoomLack:
-        """Return what a move lacks most, proved, but for the height that formations themselves lack."""
+        """Return a move's largest violation, proved; excess height of the formations themselves is not
+        counted.
+        """
         flown = flown_of(ends, move)
         worst = self.room.worst(flown)
         high = max(self.heights.high, *(float(e[:, 2].max()) for e in ends))
@@ -48,7 +52,9 @@ class MoveSurroundings(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MoveTask:
-    """What a move is to keep: where it may be, the limits, the pace, and the easing of straight ways."""
+    """The requirements of a move: its allowed space, the limits, the pace, and the easing of
+    straight moves.
+    """
 
     sky: MoveSurroundings
     limits: Limits
@@ -57,9 +63,11 @@ class MoveTask:
 
 
 def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
-    """Return the fastest move found that rises over what is in the way; if none is clear, what lacks least.
+    """Return the fastest move found that rises over the obstacles, or that with the least violation.
 
-    course : the way that it goes, seen from above
+    The result is None if rising does not help.
+
+    course : its path, as seen from above
     """
     best: LiftedCandidate | None = None
     for factor, more, every in TRIES:
@@ -80,12 +88,13 @@ def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
 
 
 def _need(ends: Ends, pivot: Array, places: Array, room: DisplaySurroundings, *, every: bool) -> Array:
-    """Return by how much a fleet has to rise where (a, b) is at places (T, 2), metres, shape (T,).
+    """Return the required rise of a fleet with (a, b) at places (T, 2), m, shape (T,).
 
-    Between two places it is the more of both: what is steep, as a wall, begins between two of them.
+    Each value includes those of its neighbours, because steep obstacles such as walls may start between two
+    places.
     """
     away, there = ends[0] - pivot, ends[1] - pivot
-    # Drone by drone, for places that follow one another are looked up together.
+    # The order is drone by drone, because consecutive places are looked up together.
     ways = pivot + places[:, :1] * away[:, None] + places[:, 1:] * there[:, None]
     need = room.up(ways.reshape(-1, 3), every=every).reshape(len(away), -1).max(axis=0)
     need[1:-1] = np.maximum(need[1:-1], np.maximum(need[:-2], need[2:]))
