@@ -135,6 +135,11 @@ class _Finder(ast.NodeVisitor):
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
         """Leave texts alone: their columns are not told apart before Python 3.12."""
 
+    def visit_keyword(self, node: ast.keyword) -> None:
+        """Leave ``strict=True`` of zip alone: like an assertion, it fails at faults alone."""
+        if node.arg != "strict":
+            self.generic_visit(node)
+
     def visit_Assert(self, node: ast.Assert) -> None:
         """Leave what is there for the type checker alone."""
 

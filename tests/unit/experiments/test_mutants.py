@@ -61,6 +61,14 @@ def test_a_guard_against_division_by_zero_is_left_alone() -> None:
     assert found == ["1e-9  ->  1.0000000000000002e-06", "/  ->  *", "max  ->  min", "0.5  ->  1.5"]
 
 
+def test_what_only_fails_at_faults_is_left_alone() -> None:
+    assert changes("assert a < b\nzip(a, b, strict=True)\nsort(a, reverse=True)") == [
+        "zip(a, b, strict=True)  ->  pass",
+        "sort(a, reverse=True)  ->  pass",
+        "True  ->  False",
+    ]
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [

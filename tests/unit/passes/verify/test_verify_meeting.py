@@ -51,14 +51,15 @@ def test_a_shot_is_put_off_until_the_other_has_ended_and_it_has_come_there() -> 
     )
 
 
-@pytest.mark.parametrize(("start", "moved"), [(8.0, "eyes"), (12.0, "birds")])
-def test_the_shot_that_begins_later_is_the_one_to_move(start: float, moved: str) -> None:
+@pytest.mark.parametrize(("start", "moved", "at"), [(8.0, "eyes", 16.0 + 6.0), (12.0, "birds", 20.0 + 4.0)])
+def test_the_shot_that_begins_later_is_the_one_to_move(start: float, moved: str, at: float) -> None:
     of = mission(rate=RATE, separation=5.0)
     bird = film("bird", BIRD_WAY, (start, 16.0))
     (claim,) = separation([JudgedFlight(of, of.drone(t.drone), t) for t in (EYE, bird)], [])
     assert claim.worst == pytest.approx(2.0, abs=1e-3)
     found = list(_remedies(of, claim, (EYE, bird), [EYE.phases[1], bird.phases[1]]))
     assert f"start shot `{moved}` after" in found[0]
+    assert at - 0.6 <= starts(found[0]) <= at  # when the other has ended, and it has come there
     assert found[1].startswith("bring them 3.0")
     assert found[2].startswith("lower `rules.separation` to ")
     assert list(_remedies(of, claim, (EYE, bird), [None, bird.phases[1]])) == found[1:]
