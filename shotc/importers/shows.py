@@ -37,7 +37,7 @@ SEPARATION_M = 3.0
 ON_GROUND_M = 1.0
 """Largest height above z = 0 at which a track begins on a pad, metres."""
 LOOK_S, MOST_PLACES = 0.5, 2_000_000
-"""Tracks are looked at so often, seconds, and at so many places of all of them together at most."""
+"""Interval at which tracks are sampled, and the most samples of all tracks together."""
 WIDE_M = 1.0
 """Distance between assumed pads beyond the separation, metres."""
 WHOLE = Node("", 1, 1, wide=1)
@@ -56,9 +56,11 @@ class ImportedShow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Show:
-    """The tracks of a file, East, North and Up in its own frame, and where that stands.
+    """The tracks of a file, East, North and Up in its own frame, and the position of that frame.
 
-    starts : where they begin, (n, 3); times : (T,), s; places : all drones at these, (T, n, 3), metres
+    starts : where they begin, (n, 3), m
+    times : of the samples, (T,), s
+    places : all drones at these, (T, n, 3), m
     """
 
     starts: Array
@@ -110,7 +112,7 @@ def _show_of(found: Found | Refused) -> _Show | Refused:
 
 
 def _times(drones: int, end: float) -> Array:
-    """Return times at which tracks are looked at, s."""
+    """Return the times at which tracks are sampled, s."""
     return np.linspace(0.0, end, max(2, min(ceil(end / LOOK_S) + 1, MOST_PLACES // drones)))
 
 
@@ -127,8 +129,8 @@ def _pads(starts: Array, name: str, notes: Notes) -> tuple[str, bytes] | None:
 
 
 def _separation(show: _Show, notes: Notes) -> float:
-    """Return what separation to ask for: no more than the tracks have on their pads and, as sampled, in the
-    air.
+    """Return the separation to request: at most that of the tracks on their pads and, as sampled,
+    in the air.
     """
     if len(show.starts) < 2:
         return SEPARATION_M
