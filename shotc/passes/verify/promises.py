@@ -22,6 +22,9 @@ PROMISES = frozenset({"V019", "V020", "V021"}) | OUTLINES
 FARTHEST_HALF_FRAMES = 3.0
 """Largest screen error that can be promised, half frames."""
 
+SMALLEST_SHARE = 0.01
+"""Smallest share of frames or of an outline that can be promised; a smaller promise says nothing."""
+
 _DIGITS = 3
 _INSTEAD = {
     "V019": "move or widen the shot where the target is cropped",
@@ -100,7 +103,9 @@ def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
 
 
 def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
-    """Return the promise that holds, as YAML; empty where there is none."""
+    """Return the promise that holds, as YAML; empty where there is none worth a line."""
+    if code in {"V019", "V028"} and claim.worst < SMALLEST_SHARE:
+        return ""
     if code == "V019":
         return f"in_frame: {enough(claim)}"
     if code == "V021":

@@ -259,12 +259,12 @@ def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
     assert promising(Promise(screen_error=0.0734), aside) == []
 
 
-def test_a_cropped_target_is_told_with_a_promise_to_paste() -> None:
+def test_a_target_that_no_frame_shows_whole_has_no_promise_to_paste() -> None:
     aside = shifted(CAM_YAW, radians(32))
     found, off_its_place = promising(Promise(in_frame=1.0), aside)
     assert off_its_place.code == "V032"
     assert found.message == "tower is whole in 0 % of the frames of shot `half`, 100 % is promised"
-    assert found.help.startswith("promise `in_frame: 0 %`, or move or widen the shot")
+    assert found.help == "move or widen the shot where the target is cropped"
 
 
 def test_a_broken_promise_names_what_bent_the_path() -> None:
