@@ -101,4 +101,10 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "1e-18  ->  1e-15",
         "a line that goes 3e-8 m aside over its length is upright to a thirtieth of what counts as inside",
     ),
+    Equivalent(
+        "shotc/geom/solid_arrays/segments.py",
+        "first = np.where(upright, np.where(c <= 0, 0.0, 1.0), (-b - root) / safe)",
+        "0  ->  1",
+        "an upright line outside the circle leaves at 0 by the next line, and is outside wherever it enters",
+    ),
 )
