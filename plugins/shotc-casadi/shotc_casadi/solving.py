@@ -65,7 +65,7 @@ class Solution:
     seconds : of the solver alone
     residual : the worst violation of a constraint, in its own unit
     stage, constraint : where, and which one; "" if all hold or there are no numbers
-    prices : multipliers of the constraints held and driven, absolute values, shape (N, kind.bound)
+    multipliers : multipliers of the constraints held and driven, absolute values, shape (N, kind.bound)
     """
 
     status: Status
@@ -78,7 +78,7 @@ class Solution:
     residual: float
     stage: int
     constraint: str
-    prices: Array
+    multipliers: Array
 
 
 class Attempt(NamedTuple):
@@ -149,9 +149,11 @@ def _judged(
     """Return the solver's last iterate, judged by its residuals."""
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
     states, inputs = _nodes(x, task)
-    iterations, prices = int(stats["iter_count"]), _prices(out, task)
+    iterations, multipliers = int(stats["iter_count"]), _multipliers(out, task)
     if not (np.isfinite(x).all() and np.isfinite(g).all()):
-        return Solution("nan", solver, states, inputs, np.nan, iterations, seconds, np.nan, 0, "", prices)
+        return Solution(
+            "nan", solver, states, inputs, np.nan, iterations, seconds, np.nan, 0, "", multipliers
+        )
     violation = np.maximum(np.maximum(_rows(task, 0) - g, g - _rows(task, 1)), 0.0)
     worst = int(violation.argmax())
     residual = float(violation[worst])
@@ -166,11 +168,11 @@ def _judged(
         residual=residual,
         stage=min(worst // task.high, task.stages),
         constraint=_name(worst, task) if residual >= task.feasible else "",
-        prices=prices,
+        multipliers=multipliers,
     )
 
 
-def _prices(out: Mapping[str, Any], task: Instance) -> Array:
+def _multipliers(out: Mapping[str, Any], task: Instance) -> Array:
     stages = np.array(out["lam_g"]).ravel()[: task.stages * task.high].reshape(task.stages, task.high)
     return np.asarray(np.abs(stages[:, task.kind.states :]))
 

@@ -120,9 +120,12 @@ def kept_from(bodies: Sequence[MovingEllipsoid], references: ClockReferences, ey
 def acts_anew(
     bodies: Sequence[MovingEllipsoid], counted: Mask | None, references: ClockReferences, eyes: Array
 ) -> bool:
-    """Tell whether places ``eyes`` are within reach of an ellipsoid that did not count before.
+    """Return whether positions ``eyes`` are within reach of an ellipsoid that was not part of the problem.
 
-    counted : which did, by node; one that is out of reach changes nothing where the camera is
+    An ellipsoid out of reach has no effect at the camera.
+
+    counted : whether an ellipsoid was part of the problem, by node
+    eyes : camera positions in W, shape (N + 1, 3), metres
     """
     if references.beside is None:
         return False

@@ -130,9 +130,10 @@ def with_occluders(
 def hides_anew(
     occluders: Sequence[Occluder], counted: Mask | None, references: ClockReferences, eyes: Array
 ) -> bool:
-    """Tell whether an ellipsoid that did not count before hides anything from places ``eyes``.
+    """Return whether an ellipsoid that was not part of the problem hides a subject from positions ``eyes``.
 
-    counted : which did, by node
+    counted : whether an ellipsoid was part of the problem, by node
+    eyes : camera positions in W, shape (N + 1, 3), metres
     """
     if references.near is None:
         return False

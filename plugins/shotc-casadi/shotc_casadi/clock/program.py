@@ -27,7 +27,7 @@ def solve(task: ClockProblem, solver: Solver) -> Solution:
         solution,
         inputs=solution.inputs * task.units,
         objective=solution.objective / task.unit,
-        prices=solution.prices / task.unit,
+        multipliers=solution.multipliers / task.unit,
     )
 
 

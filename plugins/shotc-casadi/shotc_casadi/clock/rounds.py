@@ -22,11 +22,11 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.clock.bodies import MovingEllipsoid, acts_anew, bodies_of, kept_from
 from shotc_casadi.clock.curve import curve_of, filmed
+from shotc_casadi.clock.gain_bound import gain_bound
 from shotc_casadi.clock.guess import guess_past
 from shotc_casadi.clock.occluders import Occluder, hides_anew, with_occluders
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
-from shotc_casadi.clock.promise import promise
 from shotc_casadi.clock.proof import UnprovedMoment, astray, gap_in
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.several import turned
@@ -41,7 +41,7 @@ ALLOWED_RAD = 0.01  # rad: a camera may miss its reference by this, or by as muc
 FIRST = Use(NEARLY_SHARE)
 NARROWER_SHARE = 0.1  # factor on the allowed error of the ends, if the clearances are not proved
 GAIN_SHARE = 0.02  # of the cost: a round that gains less is the last one
-PROMISE_SHARE = 0.01  # of the cost: a round that can gain less than this is left out
+LEAST_GAIN_SHARE = 0.01  # of the cost: a round that can gain at most this is left out
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,8 +77,8 @@ class _Best(NamedTuple):
     task: ClockProblem
 
 
-class _Setting(NamedTuple):
-    """What a round is put beside: the ellipsoids that count about its course, and half-spaces there."""
+class _Surroundings(NamedTuple):
+    """The surroundings of a round: references with the ellipsoids near its course, and half-spaces there."""
 
     references: ClockReferences
     planes: HalfSpaces
@@ -142,7 +142,7 @@ class _Round:
     first: Solution | None = None
     gap: UnprovedMoment | None = None
     best: _Best | None = None
-    setting: _Setting | None = None
+    setting: _Surroundings | None = None
     ended: bool = False
 
 
@@ -176,7 +176,7 @@ def _begun(shot: _Shot) -> _Round:
 
 def _next(shot: _Shot, now: _Round) -> _Round:
     """Return the next round: set up the problem around the course, solve it, prove it at every instant."""
-    references, planes = now.setting or _setting(shot, now)
+    references, planes = now.setting or _surroundings_of(shot, now)
     task = problem(shot.subject, shot.breaks, references, planes, now.use, now.start)
     optional = now.best is not None or now.guess_aside
     solution, failed = attempt = by_one_of(SOLVERS[:1] if optional else SOLVERS, partial(solve, task))
@@ -193,33 +193,33 @@ def _next(shot: _Shot, now: _Round) -> _Round:
     # The cost before does not contain new occluders.
     anew = references.screened > now.references.screened
     found = _Best(curve, solution, task)
-    return _led_on(shot, _improved(after, found, anew=anew), found)
+    return _continued(shot, _improved(after, found, anew=anew), found)
 
 
-def _led_on(shot: _Shot, after: _Round, found: _Best) -> _Round:
-    """Return a round that holds with what the next is put beside; it is the last if that promises little."""
+def _continued(shot: _Shot, after: _Round, found: _Best) -> _Round:
+    """Return the round with the surroundings of the next one; it is the last if the next can gain little."""
     if after.ended:
         return after
-    setting = _setting(shot, after)
+    setting = _surroundings_of(shot, after)
     if _counts_anew(shot, after, setting.references):
         return replace(after, setting=setting)
-    little = promise(found.task, found.solution, setting.planes, after.reach) < PROMISE_SHARE
+    little = gain_bound(found.task, found.solution, setting.planes, after.reach) < LEAST_GAIN_SHARE
     return replace(after, setting=setting, ended=little)
 
 
 def _counts_anew(shot: _Shot, after: _Round, references: ClockReferences) -> bool:
-    """Tell whether an ellipsoid has a say in a motion that it had none in while that was sought."""
+    """Return whether an ellipsoid acts on the motion that was not part of the problem of its round."""
     before, eyes = after.references, after.course(shot.breaks)
     return hides_anew(shot.occluders, before.near, references, eyes) or acts_anew(
         shot.bodies, before.beside, references, eyes
     )
 
 
-def _setting(shot: _Shot, now: _Round) -> _Setting:
-    """Return what a round is put beside about its course."""
+def _surroundings_of(shot: _Shot, now: _Round) -> _Surroundings:
+    """Return the surroundings of a round along its course."""
     eyes = now.course(shot.breaks)
     references = with_occluders(shot.occluders, now.references, eyes, shot.shown)
-    return _Setting(kept_from(shot.bodies, references, eyes), _planes(shot, now))
+    return _Surroundings(kept_from(shot.bodies, references, eyes), _planes(shot, now))
 
 
 def _planes(shot: _Shot, now: _Round) -> HalfSpaces:

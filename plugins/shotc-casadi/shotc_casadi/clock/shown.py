@@ -123,7 +123,7 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
 
 
 def keeps_promises(subject: ClockSubject, leg: ClockLeg) -> bool:
-    """Tell whether a leg shows all subjects of its shot as that promises."""
+    """Return whether a leg keeps the promises of its shot for all subjects."""
     every = (shown(subject, leg, which) for which in range(len(subject.framed)))
     return all(_promised(subject, FLAWLESS, one) for one in every)
 

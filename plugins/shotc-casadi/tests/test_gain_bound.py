@@ -1,4 +1,4 @@
-"""What another round of a shot on its own clock promises: prices of half-spaces are slopes of the cost."""
+"""The bound on the gain of another round: multipliers of half-spaces are slopes of the optimal cost."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 import pytest
+from shotc_casadi.clock.gain_bound import gain_bound
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem, table_of
 from shotc_casadi.clock.program import solve
-from shotc_casadi.clock.promise import promise
 from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.refiner import refine_one, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE
@@ -55,30 +55,30 @@ def solved(given_way: float = 0.0) -> Solution:
 
 
 def moved(metres: float) -> HalfSpaces:
-    """The half-spaces, each of which gives way so far."""
+    """The half-spaces, each moved back by so many metres."""
     planes = beside()[1]
     return replace(planes, offset=planes.offset - metres)
 
 
 @pytest.mark.parametrize("metres", [0.02, 0.1, 0.3])
-def test_no_more_is_saved_than_is_promised_and_of_little_nearly_all(metres: float) -> None:
-    promised = promise(task(moved(0.0)), solved(), moved(metres), REACH_M) * solved().objective
+def test_the_saving_is_within_the_bound_and_near_it_for_small_steps(metres: float) -> None:
+    bound = gain_bound(task(moved(0.0)), solved(), moved(metres), REACH_M) * solved().objective
     saved = solved().objective - solved(metres).objective
-    assert 0.0 < saved < promised
+    assert 0.0 < saved < bound
     if metres < 0.05:
-        assert saved > 0.5 * promised
+        assert saved > 0.5 * bound
 
 
-def test_where_nothing_gives_way_next_to_nothing_is_promised() -> None:
-    assert promise(task(moved(0.0)), solved(), moved(0.0), REACH_M) < 1e-3
+def test_half_spaces_that_stay_allow_no_gain() -> None:
+    assert gain_bound(task(moved(0.0)), solved(), moved(0.0), REACH_M) < 1e-3
 
 
-def test_a_half_space_that_looks_another_way_is_no_reason_to_stay() -> None:
+def test_a_half_space_that_faces_elsewhere_does_not_replace_the_old_one() -> None:
     planes = beside()[1]
     turned = replace(planes, normal=-planes.normal, offset=-planes.offset - 0.01)
-    bound = task(moved(0.0))
+    last = task(moved(0.0))
     for others in (turned, NO_HALF_SPACES):
-        assert promise(bound, solved(), others, REACH_M) > promise(bound, solved(), moved(0.3), REACH_M)
+        assert gain_bound(last, solved(), others, REACH_M) > gain_bound(last, solved(), moved(0.3), REACH_M)
 
 
 def test_half_spaces_stand_in_the_slots_of_their_stages() -> None:

@@ -1,4 +1,4 @@
-"""What another round promises, by the prices that a solution has for the half-spaces it is held to."""
+"""An upper bound on the gain of another round, from the multipliers of the half-spaces of the last one."""
 
 from __future__ import annotations
 
@@ -9,33 +9,36 @@ from shotc_casadi.clock.problem import ClockProblem, table_of
 from shotc_casadi.clock.symbols import CONTROL_POINTS, FIELDS, PLANE_PARAMETERS
 from shotc_casadi.solving import Solution
 
-ALIKE = 0.3  # cosine of the angle between two normals, above which one half-space stands in another's way
+ALIKE = 0.3  # cosine of the angle between two normals, above which one half-space replaces the other
 
 
-def promise(task: ClockProblem, solution: Solution, planes: HalfSpaces, reach: float) -> float:
-    """Return at most what share of its cost a motion saves beside other half-spaces.
+def gain_bound(task: ClockProblem, solution: Solution, planes: HalfSpaces, reach: float) -> float:
+    """Return an upper bound on the share of the cost that other half-spaces save.
 
-    task : the problem that it solves; planes : the others, about it; reach : metres beyond which none are put
-    A price is the slope of the least cost over the offset of its half-space. Where the problem is convex that
-    cost is, too, so no more is saved than the price times the metres by which the half-space gives way (Boyd
-    and Vandenberghe, Convex Optimization, Sec. 5.6.2).
+    A multiplier is the slope of the optimal cost over the offset of its half-space. If the problem is convex,
+    the optimal cost is convex in the offsets, so the saving is at most the multiplier times the distance by
+    which the half-space recedes (Boyd and Vandenberghe, Convex Optimization, Sec. 5.6.2).
+
+    task, solution : the problem of the last round and its solution
+    planes : half-spaces of the next round, set up around that solution
+    reach : metres; half-spaces farther away than this are not set up
     """
     count = task.sizes.planes
     if not count:
         return 0.0
-    prices = _prices(task, solution)
+    multipliers = _multipliers(task, solution)
     first = sum(FIELDS.values())
     old = task.parameters[:-1, first : first + count * PLANE_PARAMETERS].reshape(
         task.stages, count, PLANE_PARAMETERS
     )
-    room = _room(old, table_of(planes, task.stages), _points(task, solution), reach)
-    return float((prices * room).sum()) / solution.objective
+    recession = _recession(old, table_of(planes, task.stages), _points(task, solution), reach)
+    return float((multipliers * recession).sum()) / solution.objective
 
 
-def _prices(task: ClockProblem, solution: Solution) -> Array:
-    """Return the prices of the half-spaces, (N, count, CONTROL_POINTS), a metre at each control point."""
+def _multipliers(task: ClockProblem, solution: Solution) -> Array:
+    """Return the multipliers of the half-spaces, cost per metre, shape (N, count, CONTROL_POINTS)."""
     first = len(task.held[0]) + task.sizes.limits
-    rows = solution.prices[:, first : first + task.sizes.planes * CONTROL_POINTS]
+    rows = solution.multipliers[:, first : first + task.sizes.planes * CONTROL_POINTS]
     return rows.reshape(task.stages, task.sizes.planes, CONTROL_POINTS)
 
 
@@ -48,8 +51,8 @@ def _points(task: ClockProblem, solution: Solution) -> Array:
     )
 
 
-def _room(old: Array, new: Array, points: Array, reach: float) -> Array:
-    """Return how far points may go against the normals of half-spaces till others like them hold them.
+def _recession(old: Array, new: Array, points: Array, reach: float) -> Array:
+    """Return how far points may move against the normals of old half-spaces until new ones stop them.
 
     old, new : shapes (N, count, PLANE_PARAMETERS) and (N, others, PLANE_PARAMETERS), as in ``symbols.FIELDS``
     points : shape (N, CONTROL_POINTS, 3)
