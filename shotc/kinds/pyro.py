@@ -30,7 +30,7 @@ class PyroSpec(Model):
     product: Product = Field(description="what it is called on the list of products")
     duration: Duration = Field(description="how long it burns")
     clear: PositiveLength = Field(
-        description="how far all others stay away while it burns: drones, cameras, audience, ground"
+        description="how far all else is while it burns: drones, cameras, audience, ground, scene, buildings"
     )
     prefire: NonNegativeDuration = Field(default=0.0, description="from its ignition to when it is seen")
     pan: Angle = Field(default=0.0, description="where it points, clockwise from the nose of the drone")

@@ -9,6 +9,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import part_owner
 from shotc.ir.trajectory import Claim
+from shotc.passes.verify.fleets.burning import PYRO, from_mesh
 
 
 def nearest_part(mission: MissionIR, claim: Claim) -> Iterator[str]:
@@ -27,5 +28,11 @@ def file_labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
 
 
 def _mesh(mission: MissionIR, claim: Claim) -> ObstacleMesh | None:
-    name = claim.constraint.removesuffix(" at home")
-    return next((mesh for mesh in mission.meshes if name == f"distance from {mesh.kind}"), None)
+    return next((mesh for mesh in mission.meshes if _is_from(claim.constraint, mesh)), None)
+
+
+def _is_from(constraint: str, mesh: ObstacleMesh) -> bool:
+    """Tell whether a constraint is on the distance of a body, or of a product that burns, from a mesh."""
+    if constraint.startswith(PYRO):
+        return constraint.endswith(f" from {from_mesh(mesh)}")
+    return constraint.removesuffix(" at home") == f"distance from {mesh.kind}"

@@ -1,5 +1,5 @@
-"""Checks of pyrotechnic products on drones: distances of others from them, and that the drone is in
-the air.
+"""Checks of pyrotechnic products on drones: distances of others and of what stands around from them, and that
+the drone is in the air.
 """
 
 from __future__ import annotations
@@ -10,22 +10,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.pieces import cut
 from shotc.geom.proof import ProvedExtreme
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies, parked_fleets
 from shotc.ir.show import Display, PyroCue, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, WorstValue, held
+from shotc.passes.verify.fleets.burning import PYRO, Near, near_surfaces
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
-PYRO = "pyro "
-"""Prefix of pyro constraints."""
-
 
 def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
-    """Yield claims for every burning product: the distances of all others, the audience and the ground."""
+    """Yield claims for every burning product: all others, the audience, ground and meshes."""
     for flight in flights:
         for product in _products(flight):
             yield from _cue(ir, flights, product)
@@ -75,15 +72,17 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     span = (max(burns.begin, low), min(cue.end, high))
     if span[0] >= span[1]:
         return
-    worst: dict[str, tuple[ProvedExtreme, str]] = {}
-    for row in rows_of(flight.fleet, cue):
+    rows = rows_of(flight.fleet, cue)
+    near: dict[str, Near] = {}
+    for row in rows:
         for what, bound in _distances(ir, flights, burns, row, span):
-            if what not in worst or bound.proven < worst[what][0].proven:
-                worst[what] = bound, flight.names[row]
-    for what, (bound, drone) in worst.items():
-        name, key = f"{burns.name} from {what}", (*cue.path, "clear")
+            if what not in near or bound.proven < near[what].bound.proven:
+                near[what] = Near(what, bound, row)
+    for found in (*near.values(), *near_surfaces(flight, rows, span, cue.clear)):
+        name, key = f"{burns.name} from {found.what}", (*cue.path, "clear")
         limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)
-        yield held(flight.fleet.name, limit, WorstValue(bound.proven, bound.at, "bounded"), (drone,))
+        worst = WorstValue(found.bound.proven, found.bound.at, "bounded", found.position)
+        yield held(flight.fleet.name, limit, worst, (flight.names[found.drone],))
 
 
 def _distances(
@@ -93,7 +92,7 @@ def _distances(
     drone: int,
     span: tuple[float, float],
 ) -> Iterator[tuple[str, ProvedExtreme]]:
-    """Yield the least distances of all others from one drone while its product burns."""
+    """Yield the least distances of all others and of the audience from one drone while its product burns."""
     flight, least = burns.flight, burns.cue.clear
     breaks = flight.track.breaks
     own = Piecewise(breaks, flight.flown.ctrl[drone])
@@ -103,13 +102,6 @@ def _distances(
     if burns.display.viewpoint is not None:
         eye = np.array(burns.display.viewpoint).reshape(1, 1, 1, 3)
         yield "the audience", nearest(own, breaks[[0, -1]], eye, span, least)
-    burning = cut(own, *span)
-    heights = burning.ctrl[:, :, 2].min(axis=1)
-    lowest = int(heights.argmin())
-    yield (
-        "the ground",
-        ProvedExtreme(float(heights[lowest]), float(heights[lowest]), float(burning.low[lowest])),
-    )
 
 
 def _others(
