@@ -32,6 +32,7 @@ shots:
 _SWELLING = """\
 shotc: 1
 mission: swell
+rules: {max_height: 80}
 world:
   zones:
     wall: {keep: out, box: {center: [90, 0, 75], size: [1, 600, 150]}}

@@ -73,8 +73,8 @@ def _programme(stages: int) -> Any:
     p = ca.MX.sym("p", (stages + 1) * SIZE)
     z, given = ca.reshape(x[: stages * WIDTH], WIDTH, stages), ca.reshape(p, SIZE, stages + 1)
     end = x[stages * WIDTH :]
-    cost, gap, bound = d.cost.map(stages)(z, given[:, :stages])
-    end_cost, _ = d.last_cost(end, given[:, stages])
+    cost, end_cost = d.cost.map(stages)(z, given[:, :stages]), d.last_cost(end, given[:, stages])
+    gap, bound = d.rows.map(stages)(z, given[:, :stages])
     rows = ca.vec(ca.vertcat(ca.horzcat(z[:STATES, 1:], end) - gap, bound))
     nlp = {"x": x, "p": p, "f": ca.sum2(cost) + end_cost, "g": rows}
     options = {
@@ -139,5 +139,5 @@ def paid(problem: ChaseProblem, situation: ChaseSituation, inputs: Array) -> flo
     slack = np.maximum(lack, 0.0) / SLACK
     z = np.hstack([states[:-1], inputs, slack[:, None]])
     d = differentiated(_stage())
-    cost = d.cost.map(len(inputs))(z.T, p[:-1].T)[0]
-    return float(np.array(cost).sum() + float(d.last_cost(states[-1], p[-1])[0]))
+    cost = d.cost.map(len(inputs))(z.T, p[:-1].T)
+    return float(np.array(cost).sum() + float(d.last_cost(states[-1], p[-1])))
