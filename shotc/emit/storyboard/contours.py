@@ -29,6 +29,9 @@ MOST_LABELS = 6
 LINE, BOLD = 0.45, 0.9
 """Widths of contours, points."""
 
+TEXT = 6.8
+"""Size of the heights of contours, points."""
+
 PROFILE_POINTS = 400
 """Samples of a profile."""
 
@@ -123,11 +126,14 @@ def contour(triangles: Array, level: float) -> Array:
 
 
 def contour_heights(
-    canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle]
+    canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle], size: float = TEXT
 ) -> list[PageRectangle]:
-    """Write heights on a few contours, each in free space near the middle; return the occupied rectangles."""
+    """Write heights on a few contours, each in free space near the middle; return the occupied rectangles.
+
+    size : of the text, points
+    """
     rooms: list[PageRectangle] = []
-    style = Type(6.8, shade(GROUND, 0.35), across="center", along="center_baseline", halo=GROUND_FAR)
+    style = Type(size, shade(GROUND, 0.35), across="center", along="center_baseline", halo=GROUND_FAR)
     box, triangles = sheet.box, relief.triangles
     inner = PageRectangle(box.x + 0.05, box.y + 0.05, box.width - 0.1, box.height - 0.1)
     middle = np.array([box.x + box.width / 2, box.y + box.height / 2])

@@ -59,7 +59,7 @@ def draw_map(canvas: Canvas, box: PageRectangle, board: ShotBoard, mission: Miss
     sheet = sheet_of(box, board, mission)
     step = _step(sheet, grid)
     relief = relief_of(sheet, mission.terrain.ground) if mission.terrain and sheet.is_plan else None
-    _paper(canvas, sheet, step, relief)
+    draw_paper(canvas, sheet, step, relief)
     if not sheet.is_plan:
         _ground_below(canvas, sheet, board, mission)
     draw_on_map(canvas, sheet, mission)
@@ -87,7 +87,8 @@ def _step(sheet: Sheet, grid: float) -> float:
     return grid if most <= MOST_SQUARES * grid else round_length(most / 8)
 
 
-def _paper(canvas: Canvas, sheet: Sheet, step: float, relief: PlanRelief | None) -> None:
+def draw_paper(canvas: Canvas, sheet: Sheet, step: float, relief: PlanRelief | None) -> None:
+    """Draw the background of a sheet: paper or sky, relief, and grid lines ``step`` metres apart."""
     canvas.polygons([sheet.box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
     if relief is not None:
         draw_relief(canvas, sheet, relief)

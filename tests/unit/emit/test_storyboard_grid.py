@@ -18,20 +18,18 @@ from shotc.emit.storyboard.map import MOST_SQUARES, draw_map
 from shotc.emit.storyboard.scene import draw_scene
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.show.emit.contact_sheet import EMITTER as CONTACT_SHEET
-from shotc.show.emit.contact_sheet import ground
 from tests.support.film_plans import HFOV, orbit_plan
 from tests.support.show_flights import plan as show_plan
 
 Spied = tuple[list[float], list[str]]
 
 
-def drawn(monkeypatch: pytest.MonkeyPatch, module: object, draw: Callable[[], object]) -> Spied:
+def drawn(monkeypatch: pytest.MonkeyPatch, draw: Callable[[], object]) -> Spied:
     """Draw; return the distances between neighbouring grid lines of each sheet, metres, and all texts."""
     steps: list[float] = []
     texts: list[str] = []
     lines, text = Canvas.lines, Canvas.text
-    name = "squares" if hasattr(module, "squares") else "draw_squares"
-    squares = getattr(module, name)
+    squares = map.squares
 
     def measured(canvas: Canvas, sheet: Sheet, step: float) -> None:
         strips: list[np.ndarray] = []
@@ -53,7 +51,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, module: object, draw: Callable[[], ob
         texts.append(words)
         text(self, x, y, words, *rest, **more)
 
-    monkeypatch.setattr(module, name, measured)
+    monkeypatch.setattr(map, "squares", measured)
     monkeypatch.setattr(Canvas, "text", written)
     draw()
     return steps, texts
@@ -77,7 +75,7 @@ def test_a_map_s_grid_is_as_wide_as_it_says(monkeypatch: pytest.MonkeyPatch, nam
     box = PageRectangle(0.1, 0.1, 3.9, 3.0)
     with house_style():
         canvas = Canvas(5.0, 4.0, 40.0)
-        steps, texts = drawn(monkeypatch, map, lambda: draw_map(canvas, box, board, mission, grid))
+        steps, texts = drawn(monkeypatch, lambda: draw_map(canvas, box, board, mission, grid))
     assert told(texts) == pytest.approx(steps, rel=1e-6)
     sheet = sheet_of(box, board, mission)
     assert sheet.is_plan == (name != "side")
@@ -95,14 +93,14 @@ def test_every_grid_of_a_page_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
         draw(canvas, cell, moment, mission, grid)
 
     monkeypatch.setattr(page, "draw_frame", watched)
-    steps, texts = drawn(monkeypatch, map, lambda: EMITTER.emit(orbit_plan()))
+    steps, texts = drawn(monkeypatch, lambda: EMITTER.emit(orbit_plan()))
     assert told(texts) == pytest.approx(steps, rel=1e-6)
     assert [t for t in texts if t.startswith("grid")] == [f"grid in pictures {g:g} m" for g in set(grids)]
 
 
 @pytest.mark.slow
 def test_the_map_of_a_show_says_its_grid(monkeypatch: pytest.MonkeyPatch) -> None:
-    steps, texts = drawn(monkeypatch, ground, lambda: CONTACT_SHEET.emit(show_plan()))
+    steps, texts = drawn(monkeypatch, lambda: CONTACT_SHEET.emit(show_plan()))
     assert len(steps) == 1
     assert told(texts) == pytest.approx(steps, rel=1e-6)
 

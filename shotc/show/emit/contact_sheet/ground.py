@@ -1,4 +1,4 @@
-"""The map of a display: pads, zones, pictures, and the audience."""
+"""The map of a display: terrain, scenes and buildings, pads, zones, pictures, and the audience."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from math import cos, pi, sin
 import numpy as np
 
 from shotc.emit.audience import Audience
-from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
+from shotc.emit.palette import CAMERA, FLIGHT, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle
+from shotc.emit.storyboard.contours import contour_heights, relief_of
 from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
 from shotc.emit.storyboard.labels import MapLabel, write_labels
-from shotc.emit.storyboard.map import reach_of, zones
-from shotc.emit.storyboard.map import squares as draw_squares
+from shotc.emit.storyboard.map import draw_paper, reach_of, zones
 from shotc.emit.storyboard.sheet import Sheet
+from shotc.emit.storyboard.standing import draw_on_map
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.mission import MissionIR
@@ -26,15 +27,19 @@ BORDER_IN = 0.35
 PAD_HALF_WIDTH_IN = 0.02
 """Half the width of a pad, inches."""
 
+HEIGHTS_PT = 7.5
+"""Size of the heights of contours, points: the least that can be read on this sheet."""
+
 
 def draw_ground(canvas: Canvas, box: PageRectangle, board: Board, mission: MissionIR, seen: Audience) -> None:
     """Draw the map of one display into ``box``."""
     pads = np.array(mission.fleet(board.display.fleet).pads)
     eye = np.array([seen.eye])
     sheet = _sheet(box, board, seen)
-    canvas.polygons([box.outline()], GROUND_FAR)
     step = max(5.0, round_length(float(np.max(reach_of(sheet))) / 3.0))
-    draw_squares(canvas, sheet, step)
+    relief = relief_of(sheet, mission.terrain.ground) if mission.terrain else None
+    draw_paper(canvas, sheet, step, relief)
+    draw_on_map(canvas, sheet, mission)
     zones(canvas, sheet, mission)
     _look(canvas, sheet, seen)
     squares = [_square(at, PAD_HALF_WIDTH_IN).outline() for at in sheet.place(pads)]
@@ -43,8 +48,10 @@ def draw_ground(canvas: Canvas, box: PageRectangle, board: Board, mission: Missi
     content = [_around(sheet.place(pads), 0.03), _around(np.concatenate(shapes), 0.03)]
     content.append(_around(sheet.place(eye), 0.03))
     taken = [north_arrow(canvas, sheet, content)]
-    taken.append(scale_bar(canvas, sheet, step, content + taken))
+    taken.append(scale_bar(canvas, sheet, step, content + taken, 0.0 if relief is None else relief.step))
     taken += draw_stands(canvas, sheet, shapes, [*taken, content[0], content[2]])
+    if relief is not None:
+        taken += contour_heights(canvas, sheet, relief, taken + content, HEIGHTS_PT)
     _eye(canvas, sheet.place(eye[0]))
     _names(canvas, sheet, mission, (content, taken))
     canvas.polygons([box.outline()], "none", INK, 0.8)

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from shotc.emit.audience import ASPECT, audience
-from shotc.emit.palette import QUIET
+from shotc.emit.palette import CAMERA, QUIET, STONE
 from shotc.emit.storyboard.canvas import PageRectangle
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
@@ -24,6 +24,7 @@ from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 from tests.support.page_texts import texts
 from tests.support.records import replace
+from tests.support.standing_worlds import house, ridge, terrain
 
 SIZE = (480, 270)
 
@@ -170,3 +171,33 @@ def test_a_picture_counts_the_lights_that_shine() -> None:
     with texts() as found:
         EMITTER.emit(replace(plan, trajectory=replace(plan.trajectory, fleets=(dark,))))
     assert sum(t.text.endswith(f"{len(flight.coef) - 17} of {len(flight.coef)} lights") for t in found) == 2
+
+
+@pytest.mark.slow
+def test_the_map_has_relief_with_heights_and_the_houses_that_stand_there() -> None:
+    level = EMITTER.emit(show_flights.plan()).artifacts[0].data
+    ground = terrain(ridge(60.0, at=25.0))
+    with texts() as found:
+        relief = EMITTER.emit(show_flights.plan(show_flights.mission(terrain=ground))).artifacts[0].data
+    here = [t for t in found if t.box.x < MARGIN + MAP]
+    heights = [t for t in here if t.text.endswith(" m") and t.text.removesuffix(" m").isdigit()]
+    assert heights
+    assert any("contours" in t.text for t in here)
+    assert min(t.capital for t in heights) >= 9.0 - 1e-9
+    for one in heights:
+        assert not [other.text for other in here if other is not one and one.box.meets(other.box)]
+    built = show_flights.mission(meshes=(house((20.0, 20.0, 5.0), (20.0, 20.0, 10.0)),))
+    houses = EMITTER.emit(show_flights.plan(built)).artifacts[0].data
+    assert stone(houses) > stone(level) + 500
+    assert (pixels(relief) != pixels(level)).any(axis=-1).sum() > 5000
+
+
+def pixels(data: bytes) -> np.ndarray:
+    return np.asarray(Image.open(BytesIO(data)).convert("RGB")).astype(int)
+
+
+def stone(data: bytes) -> int:
+    """Return how many pixels have the colour of houses, below the audience's fan or beside it."""
+    page = pixels(data) / 255.0
+    fan = np.array(STONE) + 0.13 * (np.array(CAMERA) - np.array(STONE))
+    return sum(int((np.abs(page - color).max(axis=-1) < 0.02).sum()) for color in (np.array(STONE), fan))
