@@ -144,6 +144,7 @@ def simulate(
     with Progress() as progress:
         plan, sources, folder = _plan(source, output, progress)
         from shotc.cli.rehearsed import text
+        from shotc.simulation.deviation_faults import deviations
         from shotc.simulation.document import json_text
         from shotc.simulation.faults import not_kept, unflyable
         from shotc.simulation.outputs import artifacts
@@ -185,7 +186,7 @@ def simulate(
         made = artifacts(done, plan, progress)
     paths, faults = write(made.artifacts, folder)
     kept.file.forget()
-    found = (*made.diagnostics, *not_kept(done), *faults)
+    found = (*made.diagnostics, *not_kept(done), *deviations(done), *faults)
     console.report(found, sources)
     console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
     raise typer.Exit(console.exit_code(found))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import inf
 from typing import NamedTuple
@@ -20,6 +20,7 @@ from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import ClosestApproach, between, nearest
+from shotc.simulation.deviations import Lag, Misled, lags, misled
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
@@ -27,6 +28,9 @@ from shotc.simulation.world import World, at_times
 
 SIGHT_S = 0.2
 """Seconds between the samples at which occlusion is judged."""
+
+
+NO_FLEETS = FleetRun((), ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,7 @@ class TrackingError:
     roll : largest roll of its picture, rad
     spoiled : share of filming samples with another drone in its picture, or in the cone of the rules; 0
         without other drones
+    misled : the largest stray that is mainly its receiver's error
     """
 
     drone: str
@@ -73,6 +78,7 @@ class TrackingError:
     near: tuple[ClosestApproach, ...]
     replans: Replans | None = None
     spoiled: float = 0.0
+    misled: Misled = field(default_factory=Misled)
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -85,6 +91,7 @@ class Run:
     """One run.
 
     number : its number, from 0; the same number gives the same run in any block
+    lags : of replanned shots
     """
 
     number: int
@@ -92,6 +99,7 @@ class Run:
     courses: tuple[TrackingError, ...]
     fleets: tuple[FleetCourse, ...] = ()
     fleet_pairs: tuple[FleetPair, ...] = ()
+    lags: tuple[Lag, ...] = ()
 
     @property
     def in_frame(self) -> float:
@@ -146,6 +154,8 @@ def judged(
             near[i][r] = (*near[i][r], each)
     filmed = [tuple(_filmed(mission, track)) for track in ir.drones]
     astray = [_away(f, t) for f, t in zip(flown, ir.drones, strict=True)]
+    led = [misled(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
+    behind = [lags(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     return tuple(
         Run(
             number,
@@ -155,10 +165,14 @@ def judged(
                 for each in filmed[d]
             ),
             tuple(
-                _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r)))
+                replace(
+                    _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r))),
+                    misled=led[d][r],
+                )
                 for d, f in enumerate(flown)
             ),
-            *(fleets[r] if fleets else ()),
+            *(fleets[r] if fleets else NO_FLEETS),
+            tuple(lag for each in behind for lag in each[r]),
         )
         for r, number in enumerate(world.runs)
     )

@@ -77,4 +77,32 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "W008",
+        "left-behind",
+        Severity.WARNING,
+        "in a rehearsal a drone falls behind its subject",
+        "With `--loop replan` a drone follows its subject within its own limits. It has fallen behind where its "
+        "distance from the subject exceeds the planned one by more than half: the subject then has two thirds of "
+        "its planned size on screen. The camera may still keep it in frame. The notes give the reason where it is "
+        "known: the subject moves faster than the drone may fly over ground in that direction (`limits.speed`, "
+        "with the wind), its positions are lost, or replans fail. Speeds are averaged over a second.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "W009",
+        "misled-by-receiver",
+        Severity.WARNING,
+        "in a rehearsal the errors of its receiver lead a drone off its plan by more than a clearance",
+        "A drone flies to where its receiver says that its plan is. Farther off the plan than the least clearance "
+        "that the mission needs (from the ground, targets, scenes and buildings, and other drones; at least 0.5 m "
+        "counts), it can touch what the plan is proved to be clear of. Only strays count of which the receiver's error is at least half; "
+        "replanned shots and the ways back from them leave the plan on purpose and do not count. `--gps` and "
+        "`--bias` of `shotc simulate` choose the receivers.",
+        "",
+        "",
+        "other",
+    ),
 )

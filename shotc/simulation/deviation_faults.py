@@ -1,0 +1,111 @@
+"""Warnings of rehearsals: drones that fall behind their subjects, and drones that receivers mislead."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from shotc.diag.model import Diagnostic
+from shotc.rounding import at_least, at_most, up
+from shotc.simulation.deviations import RECEIVER_SHARE, Lag, Misled, needed
+from shotc.simulation.judge import Run
+from shotc.simulation.rehearsal import Rehearsed
+from shotc.simulation.sensors import Gps
+
+
+def deviations(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield the warnings of a rehearsal about drones that fall behind or are misled."""
+    yield from _left_behind(done)
+    yield from _misled(done)
+
+
+def _left_behind(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield one warning for each shot and subject that a drone falls behind."""
+    every = [
+        (lag, run) for run in done.runs for lag in run.lags if lag.left and not _by_receiver(done, run, lag)
+    ]
+    every.sort(key=lambda pair: _of(pair[0]))
+    for _, group in groupby(every, key=lambda pair: _of(pair[0])):
+        pairs = list(group)
+        lag, run = max(pairs, key=lambda pair: pair[0].behind)
+        yield Diagnostic(
+            "W008",
+            f"{lag.drone} falls up to {at_least(lag.behind)} m behind `{lag.target}` in shot `{lag.shot}`, "
+            f"in {len(pairs)} of {len(done.runs)} runs",
+            (done.mission.origins.value(done.mission.shot(lag.shot).path),),
+            (
+                f"in run {run.number} it is {at_least(lag.behind + lag.planned)} m from it "
+                f"at {lag.time:.1f} s; {lag.planned:.2f} m are planned",
+                *_causes(done, lag, run),
+            ),
+            _remedy(done, lag),
+        )
+
+
+def _by_receiver(done: Rehearsed, run: Run, lag: Lag) -> bool:
+    """Return whether a lag is a stray that the other warning reports: the shot begins with it."""
+    led = max((course.misled.metres for course in run.courses if course.drone == lag.drone), default=0.0)
+    return not lag.outrun and led > max(needed(done.mission), RECEIVER_SHARE * lag.behind)
+
+
+def _of(lag: Lag) -> tuple[str, str, str]:
+    return lag.drone, lag.shot, lag.target
+
+
+def _causes(done: Rehearsed, lag: Lag, run: Run) -> Iterator[str]:
+    """Yield what is known about the reason of a lag."""
+    own = f"{lag.drone} at most at {at_most(lag.most)} m/s"
+    yield f"`{lag.target}` moves at up to {at_least(lag.speed)} m/s, {own}"
+    for start, end in _lost_before(done.conditions.gps, lag):
+        yield f"there are no positions of targets from {start:g} to {end:g} s"
+    for course in run.courses:
+        if course.drone == lag.drone and course.replans is not None and course.replans.failed:
+            yield f"{course.replans.failed} replans of {lag.drone} failed: {course.replans.reason}"
+
+
+def _lost_before(gps: Gps, lag: Lag) -> tuple[tuple[float, float], ...]:
+    return tuple(each for each in gps.lost if each[0] <= lag.time)
+
+
+def _remedy(done: Rehearsed, lag: Lag) -> str:
+    track = f"give `{lag.target}` the track on which it really moves"
+    if lag.outrun:
+        limits = done.mission.drone(lag.drone).limits
+        fast = up(limits.speed + done.mission.wind_taken + lag.speed - lag.most, 1)
+        track = f"raise `limits.speed` of {lag.drone} over {fast:g} m/s if it can fly that, and {track}"
+    elif _lost_before(done.conditions.gps, lag):
+        track = f"film where positions are not lost, or {track}"
+    return f"{track}; with a larger `distance` and a longer lens, a lag costs less of the size on screen"
+
+
+def _misled(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield one warning for each drone that its receiver leads off its plan by more than a clearance."""
+    least = needed(done.mission)
+    for i, first in enumerate(done.runs[0].courses):
+        every = [(run.courses[i].misled, run) for run in done.runs]
+        strays = [pair for pair in every if pair[0].metres > least]
+        if not strays:
+            continue
+        led, run = max(strays, key=lambda pair: pair[0].metres)
+        yield Diagnostic(
+            "W009",
+            f"its receiver leads {first.drone} up to {at_least(led.metres)} m off its plan, "
+            f"in {len(strays)} of {len(done.runs)} runs; up to {least:g} m are covered by its clearances",
+            (done.mission.origins.value(done.mission.drone(first.drone).path),),
+            tuple(_circumstances(led, run, i)),
+            f"fly with receivers that err less: {_receivers(done.conditions.gps)}; or plan with clearances "
+            f"over {at_least(led.metres)} m (`rules`)",
+        )
+
+
+def _circumstances(led: Misled, run: Run, drone: int) -> Iterator[str]:
+    yield f"worst in run {run.number}, at {led.time:.1f} s"
+    near = run.courses[drone].nearest
+    if near is not None:
+        yield f"its body comes within {at_most(near.distance)} m of {near.to}, at {near.time:.1f} s of it"
+
+
+def _receivers(gps: Gps) -> str:
+    if any(gps.offset):
+        return "measure their constant error on the pad, and rehearse with what is left (`--bias`)"
+    return "`gps: rtk` under `rehearse`"
