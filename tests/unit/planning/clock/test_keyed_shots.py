@@ -301,7 +301,7 @@ shots:
         assert 0.0 < float(lack) < 6.0
         assert fault.labels[-1].text == "too near then"
         assert fault.labels[-1].span.line == 6
-        assert "move keyframe 1 by so much" in fault.help
+        assert "move keyframe 1 by that much" in fault.help
         assert "`limits`" not in fault.help
 
 

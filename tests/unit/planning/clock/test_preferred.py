@@ -116,7 +116,7 @@ def test_what_is_given_up_is_told_once_a_shot_with_its_price_and_the_switch() ->
     said = told(orbit(), "V033")
     assert len(said) == 2
     for one in said:
-        assert "the preference is given up for shot `round`: to move it by 12.0" in one
+        assert "the preference is given up for shot `round`: even a move by 12.0" in one
         assert "rules: {mutual_visibility: {strength: off}}" in one
         assert "`require` there" in one
     assert told(orbit(), "M008") == []
@@ -133,8 +133,8 @@ def test_a_requirement_pays_whatever_it_takes() -> None:
 
 def test_what_it_would_have_cost_is_told_where_the_rule_is_against_it() -> None:
     (*_, said) = told(orbit("prefer", 3), "V033")
-    assert "shot `follow`: to keep the drones' pictures free would move it by" in said
-    assert "and a preference moves it by at most 20 %" in said
+    assert "shot `follow`: keeping the drones' pictures free would move it by" in said
+    assert "a preference moves it by at most 20 %" in said
 
 
 def test_a_price_is_a_statistic_of_the_plan() -> None:
