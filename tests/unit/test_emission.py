@@ -102,6 +102,14 @@ def children():
     return [int(pid) for pid in text.split()]
 
 
+@pytest.fixture(autouse=True)
+def no_other_thread():
+    """A crew forks no workers while a thread of an earlier test, such as that of a pool, still ends."""
+    for thread in threading.enumerate():
+        if thread is not threading.current_thread():
+            thread.join(30)
+
+
 @pytest.mark.parametrize("jobs", [1, 2, 3, 4])
 def test_results_come_in_the_order_of_the_emitters_and_every_worker_has_some(jobs, monkeypatch):
     emitters = [Together("a"), Light("b"), Together("c"), Light("d"), Together("e")]
