@@ -15,7 +15,7 @@ from shotc.planning.obstacles import flight_space
 from shotc.planning.over_ground import OverGround
 from shotc.plugin_api.replanner import NO_WALLS, Keeping, Plan, Walls
 
-MOST = 8
+MOST_HALF_SPACES = 8
 """Most half-spaces of a stage, the nearest ones; a plan renewed twice a second needs no more."""
 
 REACH_M = 8.0
@@ -69,10 +69,11 @@ class Standing:
         normal = np.concatenate([each.normal for each in planes])
         offset = np.concatenate([each.offset for each in planes])
         slack = np.einsum("rmd,rd->rm", hulls[piece], normal).min(axis=1) - offset
-        normals, offsets = np.tile(UP, (len(hulls), MOST, 1)), np.full((len(hulls), MOST), -FAR_M)
+        shape = (len(hulls), MOST_HALF_SPACES)
+        normals, offsets = np.tile(UP, (*shape, 1)), np.full(shape, -FAR_M)
         order = np.lexsort((slack, piece))
         rank = np.arange(len(order)) - np.searchsorted(piece[order], piece[order])
-        chosen = rank < MOST
+        chosen = rank < MOST_HALF_SPACES
         normals[piece[order][chosen], rank[chosen]] = normal[order][chosen]
         offsets[piece[order][chosen], rank[chosen]] = offset[order][chosen]
         return Walls(normals, offsets)

@@ -17,7 +17,7 @@ from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import TrackingError, judged
 from shotc.simulation.sent import Fading
 from shotc.simulation.truth import Truth
-from shotc.simulation.walls import MOST, Standing
+from shotc.simulation.walls import MOST_HALF_SPACES, Standing
 from shotc.simulation.wind import WindField
 from shotc.simulation.world import World
 from tests.support.scene_missions import feature, geojson, square
@@ -75,7 +75,7 @@ def test_no_place_that_keeps_its_half_spaces_is_too_near_to_a_building(tmp_path:
     last = Plan(times, places, np.tile([3.0, -1.0, 0.2], (31, 1)), np.zeros((30, 3)))
     stages = 0.5 + times
     found = under_test.beside(last, stages)
-    assert found.normals.shape == (31, MOST, 3)
+    assert found.normals.shape == (31, MOST_HALF_SPACES, 3)
     rng = np.random.default_rng(3)
     tried = 0
     for k in range(30):
