@@ -11,8 +11,11 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.fleet_spline import places
+from shotc.geom.surface.ground import heights
+from shotc.geom.surface.tree import under_points
 from shotc.ir.fleet import FleetTrajectory, FrameTimes
-from shotc.ir.limits import Vec3
+from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, RecordedFlight, Sphere
 from shotc.ir.trajectory import VerifiedIR
 
@@ -58,8 +61,8 @@ class Audience:
 def audience(plan: VerifiedIR, display: Display, aspect: float, before: tuple[float, ...] = ()) -> Audience:
     """Return the audience of a display, with the display in the middle of its view and wholly inside it.
 
-    Without a viewpoint in the mission, the audience stands south of the display at eye height, far enough
-    away to see all of it.
+    Without a viewpoint in the mission, the audience stands south of the display, far enough away to see all
+    of it, at eye height above the ground or the roof there.
 
     aspect : width over height of the view
     before : further times, seconds, at which the view contains the fleet, for example those of its transit
@@ -67,15 +70,30 @@ def audience(plan: VerifiedIR, display: Display, aspect: float, before: tuple[fl
     cloud = _cloud(plan, display)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
     middle = (low + high) / 2.0
-    ground = min(pad[2] for pad in plan.trajectory.keyframes.mission.fleet(display.fleet).pads)
     eye = display.viewpoint
     if eye is None:
         reach = float(np.linalg.norm(high - low)) / 2.0
-        eye = (float(middle[0]), float(middle[1]) - DISTANCE_RATIO * max(reach, 5.0), ground + EYE_HEIGHT_M)
+        x, y = float(middle[0]), float(middle[1]) - DISTANCE_RATIO * max(reach, 5.0)
+        eye = (x, y, _floor(plan.trajectory.keyframes.mission, display.fleet, (x, y)) + EYE_HEIGHT_M)
     placed = display.viewpoint is not None
     flight = flight_of(plan, display.fleet)
     there = places(flight.breaks, flight.coef, np.array(before)).reshape(-1, 3)
     return _looking(eye, np.concatenate([cloud, there]), aspect, placed=placed)
+
+
+def _floor(mission: MissionIR, fleet: str, place: Vec2) -> float:
+    """Return z of the highest surface at a place in the plan, metres.
+
+    Where there is no terrain, the ground is at the height of the fleet's lowest pad.
+    """
+    ground = None if mission.terrain is None else mission.terrain.height(*place)
+    found = [min(pad[2] for pad in mission.fleet(fleet).pads) if ground is None else ground]
+    xy = np.array([place])
+    for mesh in mission.meshes:
+        triangles = mesh.surface.triangles[under_points(mesh.surface, xy).triangle]
+        z = heights(triangles, np.repeat(xy, len(triangles), axis=0))
+        found += z[~np.isnan(z)].tolist()
+    return max(found)
 
 
 def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audience:

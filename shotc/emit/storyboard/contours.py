@@ -55,9 +55,9 @@ class PlanRelief:
         z = self.nodes[..., 2]
         if self.step == 0.0:
             return np.zeros(0)
-        return (
-            np.arange(np.ceil(np.nanmin(z) / self.step), np.floor(np.nanmax(z) / self.step) + 1) * self.step
-        )
+        first, last = np.ceil(np.nanmin(z) / self.step), np.floor(np.nanmax(z) / self.step)
+        # The sum turns -0 into 0.
+        return np.arange(first, last + 1) * self.step + 0.0
 
     @property
     def told(self) -> Array:

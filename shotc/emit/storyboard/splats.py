@@ -15,9 +15,12 @@ from numpy.typing import NDArray
 
 from shotc.emit.mesh_shades import Faces
 from shotc.geom.bernstein import Array
+from shotc.geom.camera import View
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.triangles import highest, lowest
 
+NEAR_M = 0.05
+"""Least depth at which something is drawn, metres."""
 LONGEST_PX = 48.0
 """Longest side of a triangle that is covered by points without quartering, pixels."""
 LEAST_M = 0.2
@@ -51,6 +54,28 @@ class OnPage:
 
 Project = Callable[[Array], OnPage]
 """Takes points (..., 3) in W, metres."""
+
+
+def perspective(camera: View, eye: Array, size: tuple[int, int]) -> Project:
+    """Return the projection onto the pixels of a camera's picture.
+
+    eye : shape (3,), W, metres; size : rows, columns
+    """
+    rows, columns = size
+    half_width, half_height = float(camera.half_width), float(camera.half_height)
+
+    def project(p: Array) -> OnPage:
+        d = p - eye
+        right, down, ahead = camera.to_camera((d[..., 0], d[..., 1], d[..., 2]))
+        depth = np.where(ahead > NEAR_M, ahead, np.inf)
+        safe = np.where(ahead > NEAR_M, ahead, 1.0)
+        column = 0.5 * columns * (1.0 + right / safe / half_width)
+        row = 0.5 * rows * (1.0 + down / safe / half_height)
+        aside, above = half_width * ahead, half_height * ahead
+        beyond = [right > aside, right < -aside, down > above, down < -above, ahead <= NEAR_M]
+        return OnPage(np.stack([column, row], axis=-1), np.asarray(depth), np.stack(beyond, axis=-1))
+
+    return project
 
 
 @dataclass(frozen=True, slots=True, eq=False)

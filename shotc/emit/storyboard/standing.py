@@ -10,14 +10,12 @@ from shotc.emit.palette import STONE
 from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.sheet import Sheet
-from shotc.emit.storyboard.splats import OnPage, raster_of
+from shotc.emit.storyboard.splats import OnPage, perspective, raster_of
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.triangles import TINY, cross
 from shotc.ir.mission import MissionIR
 
 PIXELS_PER_IN = 165.0
-NEAR_M = 0.05
-"""Least depth at which something is drawn, metres."""
 FAR_M = 1e5
 """Distance of a map's eye from W's origin, metres."""
 UPRIGHT_BRIGHTNESS_RATIO = 0.75
@@ -31,23 +29,9 @@ class MeshPainter:
 
     def __init__(self, canvas: Canvas, shown: PictureRectangle, mission: MissionIR) -> None:
         self._canvas, self._shown = canvas, shown
-        eye, half = np.array(shown.eye), (float(shown.camera.half_width), float(shown.camera.half_height))
-        rows, columns = _size(shown.box.height), _size(shown.box.width)
-
-        def project(p: Array) -> OnPage:
-            d = p - eye
-            right, down, ahead = shown.camera.to_camera((d[..., 0], d[..., 1], d[..., 2]))
-            depth = np.where(ahead > NEAR_M, ahead, np.inf)
-            safe = np.where(ahead > NEAR_M, ahead, 1.0)
-            at = [
-                0.5 * columns * (1.0 + right / safe / half[0]),
-                0.5 * rows * (1.0 + down / safe / half[1]),
-            ]
-            aside, above = half[0] * ahead, half[1] * ahead
-            beyond = [right > aside, right < -aside, down > above, down < -above, ahead <= NEAR_M]
-            return OnPage(np.stack(at, axis=-1), np.asarray(depth), np.stack(beyond, axis=-1))
-
-        self._raster = raster_of(faces_of(mission.meshes, eye), project, (rows, columns))
+        eye = np.array(shown.eye)
+        size = (_size(shown.box.height), _size(shown.box.width))
+        self._raster = raster_of(faces_of(mission.meshes, eye), perspective(shown.camera, eye, size), size)
         apart = self._raster.points[..., :2] - eye[:2]
         self._away = np.nan_to_num(np.hypot(apart[..., 0], apart[..., 1]), nan=-1.0)
         self._drawn = np.inf

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 from scipy.ndimage import gaussian_filter
 
-from shotc.emit.audience import ASPECT, Audience, audience
+from shotc.emit.audience import ASPECT, audience
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
@@ -20,7 +20,8 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.light_paints import Levels
 from shotc.ir.trajectory import VerifiedIR
 from shotc.rounding import as_minutes
-from shotc.show.emit.contact_sheet.night import GLOW_M, backdrop
+from shotc.show.emit.contact_sheet.night import GLOW_M
+from shotc.show.emit.contact_sheet.scenery import Scenery, scenery
 
 WIDTH, HEIGHT = 480, 270
 RATE, MOST = 4.0, 180
@@ -76,9 +77,10 @@ def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
         these = times[(times > first) & (times <= last)]
         if not len(these):
             continue
-        seen = audience(plan, plan.trajectory.keyframes.mission.display(display), ASPECT)
-        sky = backdrop(seen, (WIDTH, HEIGHT)).astype(np.float32)
-        views = [_seen(flight, these, seen) for flight in flights]
+        mission = plan.trajectory.keyframes.mission
+        behind = scenery(mission, audience(plan, mission.display(display), ASPECT), (WIDTH, HEIGHT))
+        sky = behind.colors.astype(np.float32)
+        views = [_seen(flight, these, behind) for flight in flights]
         for k, time in enumerate(these):
             light = np.zeros((HEIGHT, WIDTH, 3), dtype=np.float32)
             for spots, colors in views:
@@ -97,15 +99,17 @@ def _ends(plan: VerifiedIR) -> list[float]:
     return [ends[name] for name in _shown(plan)]
 
 
-def _seen(flight: FleetTrajectory, times: Array, seen: Audience) -> tuple[Array, Levels]:
+def _seen(flight: FleetTrajectory, times: Array, behind: Scenery) -> tuple[Array, Levels]:
     """Return the lights in the picture (column, row, radius of the glow in pixels) and their colours.
 
-    Both have shape (n, T, 3); the radius is 0 for a light outside the picture.
+    Both have shape (n, T, 3); the radius is 0 for a light that is hidden or outside the picture.
     """
-    away = places(flight.breaks, flight.coef, times) - np.array(seen.eye)
-    view = seen.view(WIDTH / HEIGHT)
+    at = places(flight.breaks, flight.coef, times)
+    away = at - np.array(behind.seen.eye)
+    view = behind.seen.view(WIDTH / HEIGHT)
     u, v, depth = view.project((away[..., 0], away[..., 1], away[..., 2]))
     inside = (depth > 0.5) & (np.abs(u) < 1.0) & (np.abs(v) < 1.0)
+    inside &= ~behind.hides(at.reshape(-1, 3)).reshape(inside.shape)
     pixels = np.where(inside, GLOW_M / (np.maximum(depth, 0.5) * 2.0 * float(view.half_width)) * WIDTH, 0.0)
     spots = np.stack([(u + 1.0) / 2.0 * WIDTH - 0.5, (1.0 - v) / 2.0 * HEIGHT - 0.5, pixels], axis=-1)
     shine = light_colors(flight, times).astype(np.float32) / 255.0

@@ -1,23 +1,18 @@
-"""The audience's view at one instant as pixels: lights in a dark sky over the ground."""
+"""The audience's view at one instant as pixels: lights in a dark sky, over the ground and behind hills."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import tan
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from shotc.emit.audience import Audience
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors, FleetTrajectory
-from shotc.ir.light_colors import light_colors
-
-ZENITH, HORIZON = (0.012, 0.018, 0.045), (0.060, 0.078, 0.130)
-EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
-LINE = (0.20, 0.23, 0.27)
+from shotc.ir.light_colors import light_colors, lit_drones
+from shotc.show.emit.contact_sheet.scenery import Scenery
 
 UNLIT_GREY_LEVEL = 26.0
 """Grey, of 255, of a drone whose light is off; it is drawn although the audience would not see it."""
@@ -32,42 +27,33 @@ BLOOM, SPREAD = 5.0, 0.011
 """Strength and width of a light's bloom, the latter over the picture's width."""
 
 
-def night(
-    flights: Sequence[FleetTrajectory], time: float, seen: Audience, size: tuple[int, int]
-) -> NDArray[np.uint8]:
+def night(flights: Sequence[FleetTrajectory], time: float, behind: Scenery) -> NDArray[np.uint8]:
     """Return the picture of fleets at a time, shape (rows, columns, 3).
 
-    size : columns, rows
+    behind : the picture without lights; lights that it hides are not drawn
     """
-    at = [places(flight.breaks, flight.coef, np.array([time]))[:, 0] for flight in flights]
-    colors = [light_colors(flight, np.array([time]))[:, 0] for flight in flights]
-    light = _lights(np.concatenate(at), np.concatenate(colors), seen, size)
-    light += BLOOM * gaussian_filter(light, (SPREAD * size[0], SPREAD * size[0], 0.0), truncate=3.0)
-    picture = 1.0 - (1.0 - backdrop(seen, size)) * np.exp(-light)
+    at = np.concatenate([places(flight.breaks, flight.coef, np.array([time]))[:, 0] for flight in flights])
+    colors = np.concatenate([light_colors(flight, np.array([time]))[:, 0] for flight in flights])
+    visible = ~behind.hides(at)
+    width = behind.size[0]
+    light = _lights(at[visible], colors[visible], behind)
+    light += BLOOM * gaussian_filter(light, (SPREAD * width, SPREAD * width, 0.0), truncate=3.0)
+    picture = 1.0 - (1.0 - behind.colors) * np.exp(-light)
     return np.asarray(np.round(255.0 * picture), dtype=np.uint8)
 
 
-def backdrop(seen: Audience, size: tuple[int, int]) -> Array:
-    """Return sky and ground, shape (rows, columns, 3); the horizon is at the height of the eye."""
-    columns, rows = size
-    view = seen.view(columns / rows)
-    v = 1.0 - 2.0 * (np.arange(rows) + 0.5) / rows
-    horizon = -tan(seen.pitch) / float(view.half_height)
-    above = np.clip((v - horizon) / 2.0, 0.0, 1.0)[:, None] ** 0.7
-    below = np.clip((horizon - v) / 0.5, 0.0, 1.0)[:, None]
-    sky = np.array(HORIZON) + above * (np.array(ZENITH) - np.array(HORIZON))
-    earth = np.array(FAR) + below * (np.array(EARTH) - np.array(FAR))
-    shades = np.where(v[:, None] >= horizon, sky, earth)
-    shades[np.abs(v - horizon) < 1.0 / rows] = LINE
-    return np.repeat(shades[:, None], columns, axis=1)
+def hidden_lights(flight: FleetTrajectory, time: float, behind: Scenery) -> int:
+    """Return the number of drones whose lights shine at a time, seconds, behind terrain or a building."""
+    lit = lit_drones(flight, np.array([time]))[:, 0]
+    return int(behind.hides(places(flight.breaks, flight.coef[lit], np.array([time]))[:, 0]).sum())
 
 
-def _lights(at: Array, colors: Colors, seen: Audience, size: tuple[int, int]) -> Array:
+def _lights(at: Array, colors: Colors, behind: Scenery) -> Array:
     """Return the light on every pixel, shape (rows, columns, 3); a nearer drone is a larger spot."""
-    columns, rows = size
+    columns, rows = behind.size
     picture = np.zeros((rows, columns, 3))
-    away = at - np.array(seen.eye)
-    view = seen.view(columns / rows)
+    away = at - np.array(behind.seen.eye)
+    view = behind.seen.view(columns / rows)
     u, v, depth = view.project((away[:, 0], away[:, 1], away[:, 2]))
     shown = (depth > 0.5) & (np.abs(u) < 1.1) & (np.abs(v) < 1.1)
     share = GLOW_M / (depth * 2.0 * float(view.half_width))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import ceil, hypot
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
 from shotc.show.emit.contact_sheet.moments import FRAMES_BETWEEN, Board, SheetFrame, boards, lights
-from shotc.show.emit.contact_sheet.night import night
+from shotc.show.emit.contact_sheet.night import hidden_lights, night
+from shotc.show.emit.contact_sheet.scenery import Scenery, scenery
 from shotc.show.emit.contact_sheet.stands import NUMBER_IN, number
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.34
@@ -93,13 +95,21 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
     tall = min(tall, max(LEAST_MAP_IN, map_height(board, MAP, seen)))
     draw_ground(canvas, PageRectangle(MARGIN, start - tall, MAP, tall), board, mission, seen)
+    # The first transition starts on the ground, which no picture shows.
+    wide = audience(plan, board.display, ASPECT, board.moments[0].way)
+    large, small, first = (
+        scenery(mission, view, (round(width * dpi), round(height * dpi)))
+        for view, width, height in (
+            (seen, BIG, HEIGHT),
+            (seen, SMALL * ASPECT, SMALL),
+            (wide, SMALL * ASPECT, SMALL),
+        )
+    )
     left = MARGIN + MAP + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, COLUMNS)
         x, y = left + column * (CELL + GAP), start - row * (HEIGHT + CAPTION) - HEIGHT
-        # The first transition starts on the ground, which no picture shows.
-        way = audience(plan, board.display, ASPECT, moment.way) if i == 0 else seen
-        _cell(canvas, (x, y), (board, moment), ((seen, way), dpi))
+        _cell(canvas, (x, y), (board, moment), CellViews(large, first if i == 0 else small))
 
 
 def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
@@ -129,25 +139,32 @@ def _middle(flight: FleetTrajectory, time: float) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _cell(
-    canvas: Canvas,
-    at: tuple[float, float],
-    what: tuple[Board, SheetFrame],
-    how: tuple[tuple[Audience, Audience], float],
-) -> None:
-    """Draw a picture with the transition to it on its left, and a caption with its name and times.
+class CellViews(NamedTuple):
+    """What the audience sees behind a picture, and behind the small frames of the transition to it."""
 
-    how : the audiences of the picture and of the transition, and dots an inch
-    """
-    (x, y), (board, moment), (seen, wide) = at, what, how[0]
+    picture: Scenery
+    way: Scenery
+
+
+def _cell(canvas: Canvas, at: tuple[float, float], what: tuple[Board, SheetFrame], behind: CellViews) -> None:
+    """Draw a picture with the transition to it on its left, and a caption with its name and times."""
+    (x, y), (board, moment) = at, what
     width = SMALL * ASPECT
     for i, time in enumerate(moment.way):
         box = PageRectangle(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
-        _sky(canvas, box, (board, time), (wide, how[1]))
+        _sky(canvas, box, (board, time), behind.way)
         canvas.text(box.x + 0.05, box.y + 0.05, as_minutes(time), Type(7.5, WHITE))
     box = PageRectangle(x + width + SLIT_IN, y, BIG, HEIGHT)
-    _sky(canvas, box, (board, moment.time), (seen, how[1]))
-    _scale(canvas, box, _depth(board, moment, seen))
+    _sky(canvas, box, (board, moment.time), behind.picture)
+    _scale(canvas, box, _depth(board, moment, behind.picture.seen))
+    hidden = hidden_lights(board.flight, moment.time, behind.picture)
+    if hidden:
+        canvas.text(
+            box.x + 0.08,
+            box.top - 0.17,
+            f"{hidden} light{' is' if hidden == 1 else 's are'} hidden",
+            Type(7.5, WHITE),
+        )
     if board.flight.lights.looks:  # the lights change while the picture stands
         canvas.text(box.x + 0.08, box.y + 0.07, as_minutes(moment.time), Type(7.5, WHITE))
     name = (
@@ -164,11 +181,9 @@ def _cell(
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
 
 
-def _sky(canvas: Canvas, box: PageRectangle, what: tuple[Board, float], how: tuple[Audience, float]) -> None:
+def _sky(canvas: Canvas, box: PageRectangle, what: tuple[Board, float], behind: Scenery) -> None:
     board, time = what
-    seen, dpi = how
-    size = (round(box.width * dpi), round(box.height * dpi))
-    canvas.image(night((board.flight, *board.beside), time, seen, size), box)
+    canvas.image(night((board.flight, *board.beside), time, behind), box)
 
 
 def _depth(board: Board, moment: SheetFrame, seen: Audience) -> float:

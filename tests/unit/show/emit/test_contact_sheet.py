@@ -17,14 +17,16 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.contact_sheet import EMITTER
 from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
-from shotc.show.emit.contact_sheet.night import night
+from shotc.show.emit.contact_sheet.night import hidden_lights, night
 from shotc.show.emit.contact_sheet.page import MAP, MARGIN
+from shotc.show.emit.contact_sheet.scenery import Scenery, backdrop, scenery
 from shotc.show.emit.contact_sheet.stands import anchors, outlines
 from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 from tests.support.page_texts import texts
 from tests.support.records import replace
-from tests.support.standing_worlds import house, ridge, terrain
+from tests.support.standing_worlds import STEP, height_over, house, ridge, terrain
+from tests.support.surfaces import grid
 
 SIZE = (480, 270)
 
@@ -113,7 +115,8 @@ def test_lights_are_where_the_camera_has_them() -> None:
     plan = show_flights.plan(show_flights.mission(1))
     flight = plan.trajectory.fleets[0]
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
-    picture = night((flight,), 27.5, seen, SIZE).astype(int).sum(axis=-1)
+    behind = scenery(plan.trajectory.keyframes.mission, seen, SIZE)
+    picture = night((flight,), 27.5, behind).astype(int).sum(axis=-1)
     row, column = np.unravel_index(int(np.argmax(picture)), picture.shape)
     away = places(flight.breaks, flight.coef, np.array([27.5]))[0, 0] - np.array(seen.eye)
     u, v, _ = seen.view(ASPECT).project((away[0], away[1], away[2]))
@@ -151,6 +154,75 @@ def test_without_a_viewpoint_the_audience_stands_in_the_south() -> None:
     assert seen.eye[1] < show_flights.CENTRE[1] - 20.0
     assert seen.eye[2] == 1.7
     assert EMITTER.emit(plan).artifacts
+
+
+def test_without_a_viewpoint_the_audience_stands_on_the_ground_and_on_roofs() -> None:
+    shows = (show_flights.display(viewpoint=None),)
+    level = show_flights.plan(show_flights.mission(displays=shows))
+    x, y, _ = audience(level, shows[0], ASPECT).eye
+    shape = ridge(40.0, at=x)
+    hill = show_flights.plan(show_flights.mission(displays=shows, terrain=terrain(shape)))
+    eye = np.array(audience(hill, shows[0], ASPECT).eye)
+    assert eye[:2].tolist() == [x, y]
+    assert height_over(shape, eye) == pytest.approx(1.7)
+    built = show_flights.mission(displays=shows, meshes=(house((x, y, 6.0), (20.0, 20.0, 12.0)),))
+    assert audience(show_flights.plan(built), shows[0], ASPECT).eye == (x, y, 13.7)
+
+
+def behind_a_ridge(height: float) -> tuple[VerifiedIR, Scenery, np.ndarray]:
+    """A show behind a ridge that runs along x, its picture without lights, and which drones the ridge hides.
+
+    The audience stands at y = -50 and z = 2, the crest is at y = 0.
+    """
+    shape = grid(ridge(height, at=0.0, half=30.0).heights.T, STEP)
+    plan = show_flights.plan(show_flights.mission(terrain=terrain(shape)))
+    seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
+    flight = plan.trajectory.fleets[0]
+    at = places(flight.breaks, flight.coef, np.array([27.5]))[:, 0]
+    share = np.linspace(0.0, 1.0, 4001)[:, None, None]
+    ways = np.array(seen.eye) + share * (at - np.array(seen.eye))
+    return (
+        plan,
+        scenery(plan.trajectory.keyframes.mission, seen, SIZE),
+        (height_over(shape, ways) < 0).any(axis=0),
+    )
+
+
+def test_a_hill_hides_the_lights_behind_it() -> None:
+    plan, behind, hidden = behind_a_ridge(22.0)
+    flight = plan.trajectory.fleets[0]
+    at = places(flight.breaks, flight.coef, np.array([27.5]))[:, 0]
+    assert 10 < hidden.sum() < len(hidden) - 10
+    told = behind.hides(at)
+    assert not (told & ~hidden).any()
+    assert (told != hidden).sum() <= 2  # those a pixel below the crest
+    assert hidden_lights(flight, 27.5, behind) == told.sum()
+    shining = replace(flight.lights, colors=flight.lights.colors[~told])
+    without = replace(flight, coef=flight.coef[~told], lights=shining)
+    assert (night((flight,), 27.5, behind) == night((without,), 27.5, behind)).all()
+
+
+def test_hills_and_houses_stand_in_the_pictures_at_night() -> None:
+    _, behind, _ = behind_a_ridge(22.0)
+    rows, columns = SIZE[1], SIZE[0]
+    flat = backdrop(behind.seen, SIZE)
+    hill = (behind.colors != flat).any(axis=-1)
+    # The crest, 22 m high and 50 m away, is level in the picture.
+    _, v, _ = behind.seen.view(ASPECT).project((0.0, 50.0, 20.0))
+    crest = (1.0 - v) / 2.0 * rows
+    assert abs(hill[:, columns // 2].argmax() - crest) <= 1.5
+    assert hill[int(crest) + 2 :].all()
+    mission = show_flights.mission(meshes=(house((0.0, 20.0, 10.0), (10.0, 10.0, 20.0)),))
+    front = scenery(mission, behind.seen, SIZE)
+    wall = (front.colors != flat).any(axis=-1)
+    view = behind.seen.view(ASPECT)
+    u, v, _ = view.project((np.array([-5.0, 5.0]), np.array([65.0, 65.0]), np.array([18.0, 18.0])))
+    across, top = (u + 1.0) / 2.0 * columns, (1.0 - v[0]) / 2.0 * rows
+    shown = np.flatnonzero(wall[int(top) + 2])
+    assert abs(shown[0] - across[0]) <= 1.5
+    assert abs(shown[-1] + 1 - across[1]) <= 1.5
+    assert abs(wall.any(axis=1).argmax() - top) <= 1.5
+    assert front.colors[wall].mean() > behind.colors[hill].mean()
 
 
 def test_no_fleet_no_sheet() -> None:
