@@ -1,10 +1,13 @@
-"""Warnings of rehearsals: drones that fall behind their subjects, and drones that receivers mislead."""
+"""Warnings of rehearsals: drones that fall behind their subjects, drones that receivers mislead, and
+replanners that fail.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
 
+from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.rounding import at_least, at_most, up
 from shotc.simulation.deviations import RECEIVER_SHARE, Lag, Misled, needed
@@ -14,9 +17,10 @@ from shotc.simulation.sensors import Gps
 
 
 def deviations(done: Rehearsed) -> Iterator[Diagnostic]:
-    """Yield the warnings of a rehearsal about drones that fall behind or are misled."""
+    """Yield the warnings of a rehearsal."""
     yield from _left_behind(done)
     yield from _misled(done)
+    yield from _unplanned(done)
 
 
 def _left_behind(done: Rehearsed) -> Iterator[Diagnostic]:
@@ -59,8 +63,12 @@ def _causes(done: Rehearsed, lag: Lag, run: Run) -> Iterator[str]:
     for start, end in _lost_before(done.conditions.gps, lag):
         yield f"there are no positions of targets from {start:g} to {end:g} s"
     for course in run.courses:
-        if course.drone == lag.drone and course.replans is not None and course.replans.failed:
-            yield f"{course.replans.failed} replans of {lag.drone} failed: {course.replans.reason}"
+        counts = course.replans
+        if course.drone == lag.drone and counts is not None:
+            if counts.failed:
+                yield f"{counts.failed} replans of {lag.drone} failed: {counts.reason}"
+            if counts.lost:
+                yield f"{counts.lost} replans of {lag.drone} were left out: {counts.blind}"
 
 
 def _lost_before(gps: Gps, lag: Lag) -> tuple[tuple[float, float], ...]:
@@ -95,6 +103,30 @@ def _misled(done: Rehearsed) -> Iterator[Diagnostic]:
             tuple(_circumstances(led, run, i)),
             f"fly with receivers that err less: {_receivers(done.conditions.gps)}; or plan with clearances "
             f"over {at_least(led.metres)} m (`rules`)",
+        )
+
+
+def _unplanned(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield one warning for each drone whose replanner gave no plan that can be flown."""
+    name = done.conditions.replanner
+    package = plugins.package_of("replanners", name)
+    for i, first in enumerate(done.runs[0].courses):
+        every = [(c, run) for run in done.runs if (c := run.courses[i].replans) is not None]
+        failed = [(counts, run) for counts, run in every if counts.failed]
+        if not failed:
+            continue
+        reasons = dict.fromkeys(counts.reason for counts, _ in failed)
+        yield Diagnostic(
+            "W010",
+            f"the replanner `{name}` gives {first.drone} no plan in {sum(c.failed for c, _ in failed)} of "
+            f"{sum(c.asked for c, _ in every)} replans",
+            (done.mission.origins.value(done.mission.drone(first.drone).path),),
+            (
+                f"in {len(failed)} of {len(done.runs)} runs, the first of them run {failed[0][1].number}",
+                *reasons,
+                f"{first.drone} flies its last plan to the end, brakes and holds until there is a new one",
+            ),
+            f"report it to the authors of {package}, or fly with another replanner (`--replanner`)",
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from math import hypot
 
@@ -13,10 +14,12 @@ from shotc.geom.vec import wrapped
 from shotc.ir.limits import Limits
 from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
+from shotc.plugin_api.replanner import Replanner
 from shotc.simulation.aim import Shown, aim_rates, aimed
 from shotc.simulation.film import PlanSamples, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
 from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
+from shotc.simulation.replanner_process import replanner
 from shotc.simulation.seen import TrackedTarget, watched
 from shotc.simulation.sent import Sent
 from shotc.simulation.situations import replanned
@@ -66,23 +69,37 @@ def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns,
     With replanning, drones fly one after another: those of higher priority first, whose plans the others
     know.
     """
+    with replanner(world.conditions.replanner) if world.conditions.loop == "replan" else nullcontext() as by:
+        return _one_after_another(world, tracks, by)
+
+
+def _one_after_another(
+    world: World, tracks: Sequence[DroneTrajectory], by: Replanner | None
+) -> tuple[DroneRuns, ...]:
     ranks = {track.drone: (world.mission.drone(track.drone).priority, track.drone) for track in tracks}
     done: dict[str, DroneRuns] = {}
     sent: tuple[Sent, ...] = ()
     for track in sorted(tracks, key=lambda track: ranks[track.drone]):
         film = film_of(world.mission, track)
         own = Sent(film, PERIOD_S)
-        done[track.drone] = fly(world, film, sent, own)
+        done[track.drone] = fly(world, film, by, sent, own)
         sent = (*sent, own)
     return tuple(done[track.drone] for track in tracks)
 
 
-def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> DroneRuns:
+def fly(
+    world: World,
+    film: PlanSamples,
+    by: Replanner | None = None,
+    sent: tuple[Sent, ...] = (),
+    own: Sent | None = None,
+) -> DroneRuns:
     """Return the flight of one drone in all runs of a world.
 
     A run does not depend on the other runs of its block, up to rounding. In the same block it is reproduced
     exactly.
 
+    by : the replanner; None without replanning
     sent : plans that drones of higher priority have sent
     own : takes the plans that this drone sends
     """
@@ -93,8 +110,8 @@ def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent 
         film.times[::STEPS_PER_RECORD], conditions.chances(runs, f"gps of {name}")
     )
     targets = _watched(world, film)
-    shots = replanned(world.mission, film.track) if conditions.loop == "replan" else ()
-    guidance = Guidance(world, film, shots, targets, sent, own)
+    shots = () if by is None else replanned(world.mission, film.track)
+    guidance = Guidance(world, film, shots, by, targets, sent, own)
     vehicle, gimbal = (
         Vehicle(speed=HEADROOM_RATIO * fastest(film.drone.limits)),
         GimbalModel(film.drone.gimbal.rate),

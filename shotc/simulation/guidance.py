@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from shotc import plugins
+from shotc.diag.plugin_faults import one_line
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.vec import wrapped
@@ -16,21 +16,19 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT, Phase
 from shotc.planning.clearances import clearances_of, from_parked
-from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
+from shotc.plugin_api.replanner import Cone, Keeping, Plan, Replanner, Traffic
 from shotc.simulation.film import PlanSamples
+from shotc.simulation.replanner_answers import fault_of
+from shotc.simulation.replanner_process import ReplannerFailed, ReplannerHangs
 from shotc.simulation.seen import TrackedTarget
 from shotc.simulation.sent import Fading, Sent, SentPlans
 from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, Rejoined, ReplanInstant
-from shotc.simulation.time_limit import CallTimeout, time_limit
 from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
 from shotc.simulation.walls import Standing
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
 """Seconds between two replans."""
-
-LIMIT_S = 10.0
-"""Time after which a replanner counts as hanging; a drone could not be flown with it."""
 
 LOST_M = 4.0
 """Standard deviation of a target's position, above which a drone does not fly beside it, metres."""
@@ -57,14 +55,27 @@ NEARER_M = 0.01
 
 @dataclass(slots=True)
 class Replans:
-    """The number of replans of a drone in a run by result (``plugin_api.replanner``)."""
+    """The number of replans of a drone in a run by result (``plugin_api.replanner``).
+
+    failed : the replanner gave no plan that can be flown, or it hangs and is not asked again in this shot
+    lost : the replanner was not asked, because the position of a target is unknown
+    reason : of the last failure
+    blind : the reason why the last target was lost
+    """
 
     planned: int = 0
     stalled: int = 0
     opened: int = 0
     failed: int = 0
+    lost: int = 0
     lack: float = 0.0
     reason: str = ""
+    blind: str = ""
+
+    @property
+    def asked(self) -> int:
+        """The number of replans that the replanner was asked for, or would have been."""
+        return self.planned + self.stalled + self.opened + self.failed
 
 
 @dataclass(slots=True)
@@ -72,6 +83,7 @@ class Guidance:
     """Guides one drone in R runs.
 
     shots : shots with replanning; () flies the plan
+    by : the replanner; None without replanning
     targets : the trackers of moving targets
     sent : plans of drones of higher priority
     own : takes the plans that this drone sends
@@ -80,6 +92,7 @@ class Guidance:
     world: World
     film: PlanSamples
     shots: tuple[Anew, ...]
+    by: Replanner | None
     targets: tuple[TrackedTarget, ...]
     sent: tuple[Sent, ...] = ()
     own: Sent | None = None
@@ -90,6 +103,7 @@ class Guidance:
     _active: Anew | Rejoined | None = None
     _standing: Standing | None = None
     _away: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    _hangs: dict[int, str] = field(default_factory=dict)
     _course: Array | None = None
     _rise: Array | None = None
 
@@ -139,6 +153,7 @@ class Guidance:
         self.counts = self.counts or [Replans() for _ in range(n)]
         self._course, self._rise = np.zeros(n), np.zeros(n)
         self._away = np.ones(n, dtype=bool)
+        self._hangs.clear()
 
     def _take(self, shot: Anew | Rejoined) -> None:
         """Start replanning of a shot or of a return."""
@@ -153,8 +168,8 @@ class Guidance:
             separation=rules.separation,
             half_angle=_cone_of(mission, drone) if self.sent else None,
         )
-        by = plugins.one("replanners", self.world.conditions.replanner).plugin
-        self._planner = shot.planner(by, self.film, keeping)
+        assert self.by is not None
+        self._planner = shot.planner(self.by, self.film, keeping)
         self._standing = Standing.of(mission, drone, keeping)
         self._active = shot
 
@@ -216,12 +231,12 @@ class Guidance:
             mine = (drone[0][r], drone[1][r])
             lost = _lost(known, r)
             if lost:
-                count.failed += 1
-                count.reason = lost
+                count.lost += 1
+                count.blind = lost
                 plans.append(None)
                 continue
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
-            plans.append(self._asked(situation, last, count))
+            plans.append(self._asked(r, situation, stages))
         self._held = self._held.replaced(plans)
         if self.own is not None:
             self.own.add(time, self._held.plans)
@@ -237,27 +252,32 @@ class Guidance:
         ]
         return Traffic(np.array(places).reshape(-1, len(stages), 3), tuple(cones))
 
-    def _asked(self, situation: Any, last: Plan, count: Replans) -> Plan | None:
-        """Return a new plan; None if there is none, so that the last one is flown to its end."""
-        try:
-            with time_limit(LIMIT_S):
-                done = self._planner.replan(situation, last)
-        except CallTimeout:
-            count.failed += 1
-            count.reason = f"it took more than {LIMIT_S:g} s"
-            return None
-        except Exception as error:  # noqa: BLE001  whatever it is, the drone is in the air
-            count.failed += 1
-            count.reason = f"{type(error).__name__}: {error}"
-            return None
-        count.lack = max(count.lack, done.lack)
-        if done.plan is None or not _finite(done.plan):
-            count.failed += 1
-            count.reason = done.reason or "its plan holds numbers that are not finite"
-            return None
-        setattr(count, done.status, getattr(count, done.status) + 1)
-        plan: Plan = done.plan
-        return plan
+    def _asked(self, run: int, situation: Any, stages: Array) -> Plan | None:
+        """Return a new plan of a run; None if there is none, so that the last one is flown to its end.
+
+        A replanner that hangs is not asked again in the shot: it would take its time limit twice a second.
+        """
+        assert self._held is not None
+        count = self.counts[run]
+        fault, done = self._hangs.get(run, ""), None
+        if not fault:
+            try:
+                done = self._planner.replan(situation, self._held.plans[run])
+                fault = fault_of(done, stages)
+            except ReplannerHangs as error:
+                fault = self._hangs[run] = str(error)
+            except ReplannerFailed as error:
+                fault = str(error)
+            except Exception as error:  # noqa: BLE001  whatever it is, the drone is in the air
+                fault = one_line(error)
+        if done is not None and not fault:
+            setattr(count, done.status, getattr(count, done.status) + 1)
+            count.lack = max(count.lack, done.lack)
+            plan: Plan = done.plan
+            return plan
+        count.failed += 1
+        count.reason = fault
+        return None
 
     def _turn(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
         """Return the difference of the target's course from the planned one, (R,), rad.
@@ -310,8 +330,3 @@ def _lost(known: Known, run: int) -> str:
         if deviation > LOST_M:
             return f"`{name}` is known to {LOST_M:g} m at best: the drone brakes and holds"
     return ""
-
-
-def _finite(plan: Plan) -> bool:
-    parts = (plan.times, plan.places, plan.velocities, plan.accelerations)
-    return all(bool(np.isfinite(part).all()) for part in parts)

@@ -228,14 +228,16 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
         counts = [c for c in (run.courses[i].replans for run in done.runs) if c is not None]
         if not counts:
             continue
-        failed = sum(c.failed for c in counts)
-        total = failed + sum(c.planned + c.stalled + c.opened for c in counts)
         yield (
-            f"{first.drone}: planned anew {total} times, {failed} in vain, "
+            f"{first.drone}: planned anew {sum(c.asked for c in counts)} times, "
+            f"{sum(c.failed for c in counts)} in vain, "
             f"{sum(c.opened for c in counts)} from beyond its limits, "
             f"{sum(c.stalled for c in counts)} no better than before"
         )
-        yield from (f"{first.drone}: {reason}" for reason in {c.reason: 0 for c in counts if c.reason})
+        if lost := sum(c.lost for c in counts):
+            yield f"{first.drone}: not planned anew {lost} times, for lack of a target's position"
+        reasons = [reason for c in counts for reason in (c.reason, c.blind) if reason]
+        yield from (f"{first.drone}: {reason}" for reason in dict.fromkeys(reasons))
 
 
 def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:

@@ -105,4 +105,19 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "W010",
+        "replanner-fails",
+        Severity.WARNING,
+        "in a rehearsal a replanner gives a drone no plan",
+        "With `--loop replan` a replanner plans the next seconds of a drone twice a second. It fails where it "
+        "says so, raises an exception, returns something that cannot be flown (numbers that are not finite, "
+        "another number of stages), ends its process, or takes more than 10 s. Replanners of other packages run "
+        "in a process of their own, which is killed then, and a replanner that took too long is not asked again "
+        "in that shot of that run. The drone flies its last plan to the end, brakes and holds. "
+        "`simulate.json` has the number of failed replans of every run.",
+        "",
+        "",
+        "other",
+    ),
 )

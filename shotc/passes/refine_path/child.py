@@ -1,7 +1,6 @@
 """A refiner in its own process, which can be stopped at any time.
 
-The process is a fresh interpreter, because the current one may have threads, which a fork does not copy. The
-path and the answer pass through pipes; the refiner's prints go to standard error.
+The path and the answer pass through pipes; the refiner's prints go to standard error.
 """
 
 from __future__ import annotations
@@ -14,14 +13,11 @@ import sys
 from importlib.metadata import EntryPoint
 from typing import Any, BinaryIO, NamedTuple
 
+from shotc import child_process
 from shotc.diag.plugin_faults import one_line
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import Deviation, DronePath, PathIR, TimedPath
 
-_START = (
-    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "
-    "from shotc.passes.refine_path.child import answer; answer(sys.stdin.buffer)"
-)
 _GRACE_S = 1.0
 """Seconds after its deadline at which a process without a parent ends itself."""
 
@@ -61,14 +57,14 @@ def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContex
     Raises TooSlow if there is no answer in time, and Failed if the refiner raises or the process ends without
     an answer.
     """
-    data = pickle.dumps(sys.path) + pickle.dumps(_Order(reference, path, ctx.seed, seconds))
-    with subprocess.Popen([sys.executable, "-P", "-c", _START], **_streams()) as process:
+    data = child_process.module_path() + pickle.dumps(_Order(reference, path, ctx.seed, seconds))
+    with child_process.started(__name__, answer.__name__) as process:
         try:
             answered, _ = process.communicate(data, timeout=seconds)
         except subprocess.TimeoutExpired:
             raise TooSlow from None
         finally:
-            _end(process)
+            child_process.kill(process)
     return _read(answered, process.returncode, path)
 
 
@@ -104,34 +100,9 @@ def _read(answered: bytes, status: int, path: PathIR) -> Any:
     try:
         outcome, fault = pickle.loads(answered)
     except Exception:  # noqa: BLE001  half an answer, or none, may fail in any way
-        raise Failed(_ended(status)) from None
+        raise Failed(child_process.ended(status)) from None
     if fault is not None:
         raise Failed(fault)
     if isinstance(outcome, Outcome) and isinstance(outcome.value, _Bare):
         return outcome._replace(value=PathIR(path.keyframes, *outcome.value))
     return outcome
-
-
-def _ended(status: int) -> str:
-    if status < 0:
-        return f"its process was ended by a signal: {signal.strsignal(-status)}"
-    return f"its process ended with status {status} and no answer"
-
-
-def _streams() -> dict[str, Any]:
-    """Return the process options: pipes, and a separate group that interrupts do not reach."""
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    if sys.platform == "win32":
-        return pipes | {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP}
-    return pipes | {"start_new_session": True}
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """End a process that is still running, and its children."""
-    if process.returncode is not None:
-        return
-    if sys.platform == "win32":
-        process.kill()
-    else:
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()

@@ -1,4 +1,6 @@
-"""Warnings of rehearsals: a subject that is faster than the drone, and receivers that mislead it."""
+"""Warnings of rehearsals: a subject that is faster than the drone, receivers that mislead it, and replanners
+that fail.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +8,7 @@ import re
 
 import pytest
 
+from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.simulation.deviation_faults import deviations
@@ -96,3 +99,15 @@ def test_gusts_and_corrected_positions_are_none() -> None:
     done = flown(RehearsalOptions(loop="replan", gusts=1.0))
     assert list(deviations(done)) == []
     assert all(run.courses[0].misled.metres < 0.2 for run in done.runs)
+
+
+def test_a_replanner_without_plans_is_a_warning_that_counts_and_says_why(monkeypatch) -> None:
+    asked = RehearsalOptions(loop="replan", replanner="theirs")
+    compiled_text(BIKE, "none")
+    theirs = plugins.Source(None, "theirs", "tests.support.failing_replanners:RAISES")
+    monkeypatch.setattr(plugins, "one", lambda _group, _name: theirs)
+    found = [each for each in deviations(flown(asked)) if each.code != "W008"]
+    assert only(found).code == "W010"
+    assert only(found).labels[0].span.line == 5
+    assert "`theirs` gives cam no plan in 20 of 20 replans" in only(found).message
+    assert "ZeroDivisionError: no plan today" in only(found).notes
