@@ -130,8 +130,14 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("smoothed", text) for text in _smoothed(mission)]
     told = (recorded, taking_off, dense, layered, beside)
     facts += [("shows", text) for tell in told for text in tell(flown.stats)]
-    facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
+    facts += [("note", text) for text in (*centred(plan.trajectory.keyframes), *_without_files(mission))]
     return facts + [("note", note) for note in notes]
+
+
+def _without_files(mission: MissionIR) -> Iterator[str]:
+    """Yield a note if no autopilot gets a file because a mission that lists no emitters has no origin."""
+    if mission.drones and mission.origin is None and ("output", "emit") not in mission.origins.values:
+        yield "there are no files for autopilots: the mission has no `world.origin`, its place on earth"
 
 
 def _energy(plan: VerifiedIR) -> Iterator[str]:
@@ -231,7 +237,7 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
     if abs(near.worst - near.limit) < NO_MOTION_SHARE:
         return [f"as near as a shot begins or ends to {name}, then {near.limit:.2f} m"]
     when = "" if near.time is None else f" at {as_minutes(near.time)}"
-    return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
+    return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m needed"]
 
 
 def _ahead(plan: VerifiedIR) -> list[str]:

@@ -83,7 +83,11 @@ def filmed(
         if target.track is not None:
             return timed(shot, scene, Ideal("target", target.name, evenly(points), above=above or "target"))
         return Expansion.of(scene.keyframe(scene.raised(p, target, above), shot.target) for p in points)
-    how = f"give `{turn}` an angle such as `180 deg`" if turn else "give what is to move as [from, to]"
+    how = (
+        f"give `{turn}` an angle such as `180 deg`"
+        if turn
+        else "give what is to move as two different values, [from, to]"
+    )
     if target.track is None:
         how += f", or {_standing(shot, scene, scene.raised(points[0], target, above))}"
     return Expansion.of([scene.fault("K010", f"nothing moves in this {shot.kind}", how, turn or "kind")])

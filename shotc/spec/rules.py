@@ -105,5 +105,6 @@ class OutputSpec(Model):
     emit: tuple[Name, ...] | None = Field(
         default=None,
         description=f"emitters to run; {', '.join(presets.EMIT)}, for shows {', '.join(presets.SHOW_EMIT)},"
-        " by default; for machines of DJI `dji` or `litchi` instead of `mavlink`",
+        " by default; for machines of DJI `dji` or `litchi` instead of `mavlink`; none of these three without"
+        " `world.origin`",
     )

@@ -9,6 +9,7 @@ from shotc.cli.summary import WIDTH_CHARACTERS, shot_rows, summary
 from shotc.geom.track import Track
 from shotc.ir.path import PathDeviation
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.source.file import WHOLE_FILE
 from shotc.spec.compositions import COMPOSITIONS
 from tests.support.film_plans import SPEED, orbit_plan
 from tests.support.records import replace
@@ -109,3 +110,15 @@ def test_shots_that_their_composition_leaves_in_the_centre_are_told_with_what_mo
         assert all(f"shot `{shot.id}`" in line and "thirds-first" in line for line in lines)
         third = (replace(centre[0], reference=(1 / 3, 1 / 3)), *centre[1:])
         assert centred(replace(keyframes, shots=(replace(placed, shot=shot, keyframes=third),))) == []
+
+
+def test_a_mission_without_a_place_on_earth_says_that_no_autopilot_gets_files() -> None:
+    plan = orbit_plan(origin=False)
+    (note,) = facts(plan, "note")
+    assert "no `world.origin`" in note
+    assert facts(orbit_plan(), "note") == []
+    keyframes = plan.trajectory.keyframes
+    listed = replace(keyframes.mission.origins, values={("output", "emit"): WHOLE_FILE})
+    mission = replace(keyframes.mission, origins=listed)
+    asked = replace(plan, trajectory=replace(plan.trajectory, keyframes=replace(keyframes, mission=mission)))
+    assert facts(asked, "note") == [], "the emitters that it lists say by E101 what they cannot write"

@@ -245,7 +245,7 @@ def _crane_of(chance: Chance, moves: tuple[str, ...]) -> Draft | None:
     near, far = chance.distance(z[0]), chance.distance(z[1])
     if near is None or far is None or abs(near - far) + abs(z[0] - z[1]) < 1.0:
         return None
-    if "distance" in moves and near == far:
+    if ("distance" in moves and near == far) or (moves == ("altitude",) and z[0] == z[1]):
         return None
     distance = (near, far) if "distance" in moves else (max(near, far),) * 2
     azimuth, shares = chance.dice.whole(0, 359), np.linspace(0.0, 1.0, len(chance.times))

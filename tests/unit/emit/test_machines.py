@@ -15,6 +15,7 @@ from tests.support.front_passes import placed
 TEXT = """\
 shotc: 1
 mission: two
+world: {origin: {lat: 46.94, lon: 7.45, alt: 500}}
 targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
 drones:
   one: {model: ONE, home: [0, -40, 0]}
@@ -24,8 +25,8 @@ shots:
 """
 
 
-def emitters(one: str, two: str) -> tuple[str, ...]:
-    keyframes, found = placed(TEXT.replace("ONE", one).replace("TWO", two))
+def emitters(one: str, two: str, text: str = TEXT) -> tuple[str, ...]:
+    keyframes, found = placed(text.replace("ONE", one).replace("TWO", two))
     assert keyframes is not None, found
     return keyframes.mission.emit
 
@@ -41,6 +42,11 @@ def emitters(one: str, two: str) -> tuple[str, ...]:
 )
 def test_a_mission_that_asks_for_nothing_gets_what_its_machines_fly(one, two, files):
     assert emitters(one, two) == ("csv", *files, "storyboard", "rerun")
+
+
+def test_a_mission_that_asks_for_nothing_and_has_no_place_on_earth_gets_no_machine_files():
+    nowhere = TEXT.replace("world: {origin: {lat: 46.94, lon: 7.45, alt: 500}}\n", "")
+    assert emitters("x500", "pro", nowhere) == ("csv", "storyboard", "rerun")
 
 
 def test_another_autopilot_puts_its_files_in_place_of_others():
