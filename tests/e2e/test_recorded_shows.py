@@ -170,7 +170,7 @@ BAD: dict[str, tuple[str, bytes, str, str]] = {
     "ends in the air": ("a.zip", spoilt(cut="60"), "D150", "ends at 14.5 s"),
     "a drone too few": ("a.zip", zipped(dict(list(GOOD.items())[1:])), "D151", "write `count: 8`"),
     "a jump": ("a.zip", jumping(), "D153", "`Drone 1.csv` of `a.zip` jumps at 19."),
-    "stays on the ground": ("a.zip", waiting(), "D152", "`Drone 1.csv` never comes up to 2.25 m"),
+    "stays on the ground": ("a.zip", waiting(), "D152", "`Drone 1.csv` never comes 2.25 m above the ground"),
     "times of a show that fall": (
         "a.skyc",
         show_of({"version": 1, "points": [[0, [0, 0, 0], []], [2, [0, 0, 9], []], [1, [0, 0, 0], []]]}),
@@ -202,6 +202,34 @@ def test_what_is_wrong_with_a_file_is_told_with_its_place_and_a_way_out(name: st
     assert said in " ".join([told.message, *told.notes, told.help])
     assert told.labels
     assert told.help
+
+
+@pytest.mark.parametrize(("plain", "slope"), [(40.0, 0.0), (-30.0, 0.0), (15.0, 0.2)])
+def test_a_fleet_takes_off_and_lands_on_the_ground_wherever_that_is(
+    plain: float, slope: float, tmp_path: Path
+) -> None:
+    """Every drone rises 12 m over its own pad; the ground rises by so much a metre to the East."""
+    posts = [(x, y) for x in range(-100, 101, 20) for y in range(-100, 101, 20)]
+    relief = "".join(f"{x},{y},{plain + slope * x}\n" for x, y in posts)
+    (tmp_path / "relief.csv").write_text("x,y,z\n" + relief)
+
+    def over(times: Array) -> Array:
+        at = flown(60.0, turn=0.0)(times).copy()
+        at[..., 2] += plain + slope * at[:, :1, 0]
+        return at
+
+    (tmp_path / "a.zip").write_bytes(csv_show(over, 60.0))
+    text = MISSION.format(count=COUNT, origin="[0, 0]", file="a.zip")
+    text += "world: {terrain: {file: relief.csv}}\n"
+    done = compile_source(text.encode(), "again.yaml", tmp_path, PlanOptions())
+    assert codes(done) == []
+    track = flight(done)
+    assert [phase.name for phase in track.phases] == ["takeoff", "shot", "land"]
+    assert (stat(done, "from s"), stat(done, "to s")) == (0.0, 60.0)
+    for when in (track.phases[0].end, track.phases[-1].start):
+        at = places(track.breaks, track.coef, np.array([when]))[:, 0]
+        high = at[:, 2] - plain - slope * at[:, 0]
+        assert 2.25 <= high.min() < 6.0
 
 
 def test_another_ending_is_told_by_check(tmp_path: Path) -> None:

@@ -1,12 +1,13 @@
 """Moves that rise over obstacles between two formations: rising ground, buildings, zones, targets.
 
 The required rise of a fleet is evaluated at points of its path. The flown splines are then proved clear. If
-the proof fails, the fleet rises higher.
+the proof fails, the fleet rises higher by what it lacks.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -15,15 +16,16 @@ from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
 from shotc.planning.clearances import ROUNDING_M
+from shotc.planning.over_ground import OUTSIDE_M
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Ends, Heights, flown_of
 from shotc.show.goals.room import DisplaySurroundings, RoomLack
-from shotc.show.solvers.lifted_move import LEAST_M, Course, LiftedMove, lifted
+from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, rising_paths
 
-TRIES = ((1.0, 0.0, False), (1.1, 0.2, False), (1.25, 0.6, False), (1.0, 0.2, True), (1.15, 0.6, True))
-"""Factor on the required heights, additional height in metres, and whether the fleet rises over all that is
-near.
-"""
+ROUNDS = 4
+"""Most heights that are tried, each higher by what the one before lacks."""
+LACK_RATIO, BEYOND_M = 1.1, 0.02
+"""Rise for each metre of a missing clearance, and beyond it, metres."""
 
 
 class LiftedCandidate(NamedTuple):
@@ -70,28 +72,32 @@ def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
     course : its path, as seen from above
     """
     best: LiftedCandidate | None = None
-    for factor, more, every in TRIES:
-
-        def need(places: Array, by: tuple[float, float, bool] = (factor, more, every)) -> Array:
-            needed = _need(ends, course.pivot, places, asked.sky.room, every=by[2])
-            return np.where(needed > LEAST_M, by[0] * needed + by[1], 0.0)
-
-        found = lifted(ends, course, need, (asked.limits, asked.pace, asked.easing))
-        if found is None:
-            continue
-        lack = asked.sky.lack(ends, found)
-        if best is None or lack.metres < best.lack.metres:
-            best = LiftedCandidate(found, lack)
-        if lack.metres <= ROUNDING_M:
-            break
+    drive = asked.limits, asked.pace, asked.easing
+    for every in (False, True):
+        need = partial(_need, ends, course.pivot, asked.sky.room, every=every)
+        paths, higher = rising_paths(ends, course, need), 0.0
+        for _ in range(ROUNDS):
+            found = lifted(ends, course, [path.higher(higher) for path in paths], drive)
+            if found is None:
+                break
+            lack = asked.sky.lack(ends, found)
+            if best is None or lack.metres < best.lack.metres:
+                best = LiftedCandidate(found, lack)
+            if lack.metres <= ROUNDING_M:
+                return best
+            if lack.of is None or lack.metres >= OUTSIDE_M:  # a greater height does not help
+                break
+            higher += LACK_RATIO * lack.metres + BEYOND_M
     return best
 
 
-def _need(ends: Ends, pivot: Array, places: Array, room: DisplaySurroundings, *, every: bool) -> Array:
+def _need(ends: Ends, pivot: Array, room: DisplaySurroundings, places: Array, *, every: bool) -> Array:
     """Return the required rise of a fleet with (a, b) at places (T, 2), m, shape (T,).
 
     Each value includes those of its neighbours, because steep obstacles such as walls may start between two
     places.
+
+    every : whether the fleet rises over all that is near, or only over what it comes too near to
     """
     away, there = ends[0] - pivot, ends[1] - pivot
     # The order is drone by drone, because consecutive places are looked up together.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from shotc.ir.fleet import Frame, Recorded
 from shotc.ir.light_colors import faded_colors
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, RecordedFlight
+from shotc.ir.terrain import ground_heights
 from shotc.show.recorded import faults
 from shotc.show.recorded.stage import FitRequirements, Grounded, Staged, staged
 from shotc.show.recorded.tracks import UnreadableFlight, read_tracks
@@ -41,12 +43,13 @@ def flown(mission: MissionIR, fleet: Fleet, display: Display) -> RecordedPicture
     if len(tracks.tracks) != len(fleet.pads):
         return RecordedPicture((), None, (faults.other_count(mission, display, fleet, len(tracks.tracks)),))
     mine = [one.id for one in mission.displays if one.fleet == fleet.name]
-    floor = mission.rules.over_ground(fleet.radius)
+    clear = mission.rules.over_ground(fleet.radius)
     first, last = mine[0] == display.id, mine[-1] == display.id
-    asked = FitRequirements(np.array(fleet.pads), floor, fleet.limits, first, last)
+    ground = partial(ground_heights, mission)
+    asked = FitRequirements(np.array(fleet.pads), ground, clear, fleet.limits, first, last)
     found = staged(display.id, tracks, asked)
     if isinstance(found, Grounded):
-        return RecordedPicture((), None, (faults.grounded(mission, display, tracks, found, floor),))
+        return RecordedPicture((), None, (faults.grounded(mission, display, tracks, found, clear),))
     jump = faults.jumps(mission, display, tracks, found)
     if jump is not None:
         return RecordedPicture((), None, (jump,))

@@ -46,17 +46,17 @@ def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) 
 
 
 def grounded(
-    mission: MissionIR, display: Display, tracks: RecordedTracks, why: Grounded, floor: float
+    mission: MissionIR, display: Display, tracks: RecordedTracks, why: Grounded, clear: float
 ) -> Diagnostic:
     """Return D152: at no time are all drones clear of the ground."""
     file, label = _file(mission, display)
     one, other = (tracks.tracks[k].where for k in (why.rises, why.falls))
     if isinf(why.up):
-        note = f"`{one}` never comes up to {floor:.2f} m, the ground clearance and the radius of a body"
+        note = f"`{one}` never comes {clear:.2f} m above the ground: the ground clearance and a body's radius"
         help_ = "leave out drones that stay on the ground, or lower `rules.ground_clearance`"
     else:
         note = (
-            f"`{one}` comes up to {floor:.2f} m at {why.up:.2f} s, and `{other}` goes below it"
+            f"`{one}` comes {clear:.2f} m above the ground at {why.up:.2f} s, and `{other}` goes below that"
             f" at {why.down:.2f} s"
         )
         help_ = "let all drones be in the air together for some seconds, or give the parts to several fleets"
@@ -119,8 +119,8 @@ def _by_itself(
     who = names[why.drone]
     message = f"the {what} of `{file}` is not flown: the fleet {verb} by itself"
     note = (
-        f"a fleet goes straight up and down over its pads until all are {asked.floor:.2f} m high;"
+        f"a fleet goes straight up and down over its pads until all are {asked.clear:.2f} m above the ground;"
         f" `{who}` is {why.metres:.2f} m off at {why.time:.2f} s of the file"
     )
-    help_ = f"let all drones go straight over their pads up to {asked.floor:.2f} m, or leave it so"
+    help_ = f"let all drones go straight up over their pads to {asked.clear:.2f} m, or leave it so"
     return Diagnostic("D155", message, (label,), (note,), help_)

@@ -7,6 +7,7 @@ or ends where all drones are clear of the ground, and the fleet flies to and fro
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -41,12 +42,14 @@ class FitRequirements(NamedTuple):
     """What a flight must fit.
 
     pads : shape (n, 3), m
-    floor : the z from which on a drone is clear of the ground, m
+    ground : z of the ground under places (k, 2), m, shape (k,)
+    clear : the height above it from which on a drone is clear of the ground, m
     first, last : whether the fleet stands on its pads before it, and goes home after it
     """
 
     pads: Array
-    floor: float
+    ground: Callable[[Array], Array]
+    clear: float
     limits: Limits
     first: bool
     last: bool
@@ -127,7 +130,7 @@ def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: 
     tracks = replace(tracks, tracks=tuple(tracks.tracks[k] for k in order))
     times = sources(0.0, tracks.end, step, (True, True))
     points = points_of(tracks.tracks, times)
-    part = _part(points, times, asked.floor)
+    part = _part(_heights(points, asked), times, asked.clear)
     if isinstance(part, Grounded):
         return part
     ends = _landed(points[:, -1], asked)
@@ -182,9 +185,18 @@ def _landed(ends: Array, asked: FitRequirements) -> Array | None:
     return asked.pads[nearest] if fits else None
 
 
-def _part(points: Array, times: Array, floor: float) -> _Part | Grounded:
-    """Return the breaks between which all drones are clear of the ground; points : (n, K, 3)."""
-    clear = points[..., 2] >= floor
+def _heights(points: Array, asked: FitRequirements) -> Array:
+    """Return the heights of control points (n, K, 3) above the ground, (n, K), m."""
+    ground = asked.ground(points[..., :2].reshape(-1, 2)).reshape(points.shape[:2])
+    return np.asarray(points[..., 2] - ground)
+
+
+def _part(heights: Array, times: Array, least: float) -> _Part | Grounded:
+    """Return the breaks between which all drones are clear of the ground.
+
+    heights : of control points above the ground, (n, K), m; least : that of a clear drone, m
+    """
+    clear = heights >= least
     count = clear.shape[1]
     rises = np.where(clear.any(axis=1), np.argmax(clear, axis=1), count)
     falls = np.where(clear.any(axis=1), count - 1 - np.argmax(clear[:, ::-1], axis=1), -1)

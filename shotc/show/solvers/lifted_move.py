@@ -5,19 +5,22 @@ Every drone is at c + a(t) (x_i - c) + b(t) (g_i - c) + h(t) up: on straight pat
 is a cubic B-spline of uniform pieces, and everywhere on the path at least the required height.
 
 The height is a function of the position on the path: it follows the concave hull of the required height. The
-path is passed in the time that the busiest drone needs, as on arcs. Several smoothings of the height and
-several speed profiles are tried, and the fastest is taken.
+path is passed in the time that the busiest drone needs, as on arcs. A spline cuts the corners of the hull,
+which are sharp beside a wall. So the required height is also extended along the path, and the fleet is up
+before it comes to the wall. Several extensions and smoothings of the height and several speed profiles are
+tried, and the fastest is taken.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from math import inf
 from typing import NamedTuple
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
@@ -37,9 +40,11 @@ FEWEST, MOST = 33, 257
 """Least and largest number of points of a path at which it is evaluated."""
 STEPS = 600
 """Points of a path at which its height is stored."""
+EXTENSIONS = (0.0, 0.005, 0.01, 0.02)
+"""Shares of the flown length by which the required height is extended on either side."""
 WIDTHS = (0.0, 0.02, 0.05, 0.1)
 """Shares of the path on either side over which its height is smoothed."""
-SAMPLES = 4
+SAMPLES = 8
 """Points per piece at which the height is compared with the requirement."""
 LEAST_M = 1e-3
 """Required rises below this are ignored: positions at the least height may be there only up to rounding."""
@@ -103,6 +108,18 @@ class Rise(NamedTuple):
         return np.interp(share, self.share, self.need)
 
 
+class RisingPath(NamedTuple):
+    """A path of a move: (a, b) at the shares of its required rise, shape (T, 2)."""
+
+    at: Array
+    rise: Rise
+
+    def higher(self, metres: float) -> RisingPath:
+        """Return the same path with a rise that is higher wherever one is required."""
+        need = self.rise.need
+        return self._replace(rise=self.rise._replace(need=np.where(need > LEAST_M, need + metres, 0.0)))
+
+
 class Course(NamedTuple):
     """The allowed (a, b) of a move: about which pivot, and on which arcs, None for straight paths."""
 
@@ -138,38 +155,55 @@ def sampled(ctrl: Array) -> Array:
     return np.asarray((windows @ _basis().T).ravel())
 
 
-def lifted(
-    ends: tuple[Array, Array],
-    course: Course,
-    need: Callable[[Array], Array],
-    drive: tuple[Limits, float, Easing],
-) -> LiftedMove | None:
-    """Return the shortest move found with the required rise, or None if no height is enough.
+def rising_paths(
+    ends: tuple[Array, Array], course: Course, need: Callable[[Array], Array]
+) -> list[RisingPath]:
+    """Return the paths of a course on which some height is enough.
 
     ends : positions before and after, shape (n, 3) each
-    course : the allowed (a, b)
     need : from (a, b), shape (T, 2), to the required rise of the fleet there, m, shape (T,)
-    drive : the limits, the used share of them, and the easing
     """
-    limits, pace, easing = drive
-    drones = Drones.of(ends, course.pivot, limits, pace)
-    busy = drones.busiest()
-    far = float(np.linalg.norm(ends[1] - ends[0], axis=1).max())
-    best = LiftedShape(np.zeros((0, 2)), np.zeros(0), inf)
+    far, found = _farthest(ends), []
     for way in course.ways():
         share = np.linspace(0.0, 1.0, int(np.clip(far / STEP_M, FEWEST, MOST)))
         at = np.column_stack([np.interp(share, np.linspace(0.0, 1.0, len(way)), way[:, k]) for k in range(2)])
         rise = Rise(share, need(at))
-        if not np.isfinite(rise.need).all():
-            continue
-        for line in _lines(far, rise):
-            best = min(best, _fastest(busy, course, (at, line, rise), easing), key=lambda one: one.seconds)
+        if np.isfinite(rise.need).all():
+            found.append(RisingPath(at, rise))
+    return found
+
+
+def lifted(
+    ends: tuple[Array, Array],
+    course: Course,
+    paths: Iterable[RisingPath],
+    drive: tuple[Limits, float, Easing],
+) -> LiftedMove | None:
+    """Return the shortest move found with the required rise, or None if there is none.
+
+    ends : positions before and after, shape (n, 3) each
+    course : the allowed (a, b)
+    paths : those of ``rising_paths``
+    drive : the limits, the used share of them, and the easing
+    """
+    limits, pace, easing = drive
+    drones = Drones.of(ends, course.pivot, limits, pace)
+    busy, far = drones.busiest(), _farthest(ends)
+    best = LiftedShape(np.zeros((0, 2)), np.zeros(0), inf)
+    for path in paths:
+        for line in _lines(far, path.rise):
+            best = min(best, _fastest(busy, course, path, line, easing), key=lambda one: one.seconds)
     if not np.isfinite(best.seconds):
         return None
     ctrl = course.kept(best.ctrl)
     piece, drone, limit = drones.binding(ctrl, best.lift)
     piece = max(piece, LEAST_PIECE_S)
     return LiftedMove(ctrl, course.pivot, best.lift, float(np.ceil(piece / TICK_S) * TICK_S), limit, drone)
+
+
+def _farthest(ends: tuple[Array, Array]) -> float:
+    """Return the longest distance of a drone, m."""
+    return float(np.linalg.norm(ends[1] - ends[0], axis=1).max())
 
 
 class LiftedShape(NamedTuple):
@@ -180,9 +214,9 @@ class LiftedShape(NamedTuple):
     seconds: float
 
 
-def _fastest(busy: Drones, course: Course, of: tuple[Array, Array, Rise], easing: Easing) -> LiftedShape:
-    """Return the fastest move along a path; of : (a, b) at its shares, its line, and the required rise."""
-    at, line, rise = of
+def _fastest(busy: Drones, course: Course, path: RisingPath, line: Array, easing: Easing) -> LiftedShape:
+    """Return the fastest move along a path; line : one of ``_lines``, shape (N, 2)."""
+    at, rise = path
     along_way = np.column_stack([np.interp(line[:, 0], rise.share, at[:, k]) for k in range(2)])
     times = times_of(busy, along_way, line[:, 1])
     passed = np.linspace(0.0, 1.0, len(line))
@@ -214,15 +248,24 @@ def _lines(far: float, rise: Rise) -> Iterator[Array]:
 
     far : the longest distance of a drone, m
     """
-    hull = _concave(rise.share, rise.need)
-    passed = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(rise.share) * far, np.diff(hull)))])
+    share = np.linspace(0.0, 1.0, 2 * STEPS + 1)
+    need = rise.at(share)
+    flown = far + 2.0 * float(need.max())
+    for extension in EXTENSIONS:
+        steps = round(extension * flown / far * 2 * STEPS)
+        yield from _smoothed(far, share, _concave(share, maximum_filter1d(need, 2 * steps + 1)))
+
+
+def _smoothed(far: float, share: Array, height: Array) -> Iterator[Array]:
+    """Yield smoothings of heights at shares of the path, both (T,), as ``_lines`` does."""
+    passed = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(share) * far, np.diff(height)))])
     even = np.linspace(0.0, passed[-1], STEPS + 1)
-    share, height = np.interp(even, passed, rise.share), np.interp(even, passed, hull)
+    line = [np.interp(even, passed, channel) for channel in (share, height)]
     for width in WIDTHS:
         half = round(width * STEPS)
         kernel = np.ones(2 * half + 1) / (2 * half + 1)
         smooth = np.column_stack(
-            [np.convolve(np.pad(c, half, mode="edge"), kernel, mode="valid") for c in (share, height)]
+            [np.convolve(np.pad(c, half, mode="edge"), kernel, mode="valid") for c in line]
         )
         # The smoothed line keeps its ends.
         smooth[0], smooth[-1] = (0.0, 0.0), (1.0, 0.0)

@@ -17,9 +17,11 @@ from shotc.geom.solids import box
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import Fleet, Picture, Sphere
 from shotc.show.assignment.moves import Mover
+from shotc.show.assignment.over import MoveSurroundings
 from shotc.show.assignment.score import Motion
 from shotc.show.geom.arcs import Gaps
-from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, sampled
+from shotc.show.goals.room import DisplaySurroundings, RoomLack
+from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, rising_paths, sampled
 from shotc.show.solvers.match import matched
 from shotc.show.solvers.move import CommonMove
 from tests.support.display_missions import LIMITS, display, fleet, picture, show
@@ -134,6 +136,48 @@ def test_a_zone_in_straight_ways_is_passed_over() -> None:
     assert from_box(flown(ends, move, 0, 4000), (60.0, 0.0, 20.0), (4.0, 2000.0, 40.0)).min() >= 0.3 - 1e-6
 
 
+@pytest.mark.parametrize("at", [0.0, 60.0, 110.0])
+@pytest.mark.parametrize("height", [60.0, 120.0])
+def test_beside_a_wall_the_fleet_rises_by_hardly_more_than_its_height(at: float, height: float) -> None:
+    """The wall is 2 m from the nearest drone of the first picture, half-way, or 8 m from the last picture."""
+    wall = Zone(
+        "wall", "out", box((at, 0.0, 0.5 * height), (4.0, 2000.0, height), 0.0), ("world", "zones", "wall")
+    )
+    mission, swarm = world(zones=(wall,))
+    ends = sheet(-20.0, 30.0), sheet(120.0, 30.0)
+    mover = Mover(mission, swarm)
+    move = mover.move(*ends, 1.0, asked())
+    assert not mover.faults
+    assert isinstance(move, LiftedMove)
+    least = height + 0.3 - 30.0
+    assert least < move.height < 1.09 * least
+    away = from_box(flown(ends, move, 0, 4000), (at, 0.0, 0.5 * height), (4.0, 2000.0, height))
+    assert away.min() >= 0.3 - 1e-6
+    assert keeps_limits(ends, move)
+
+
+def test_what_the_obstacles_require_is_looked_up_once_for_all_heights_that_are_tried(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looked_up, proved = [], []
+    up, lack = DisplaySurroundings.up, MoveSurroundings.lack
+
+    def counted_up(self: DisplaySurroundings, p: Array, *, every: bool) -> Array:
+        looked_up.append(every)
+        return up(self, p, every=every)
+
+    def counted_lack(self: MoveSurroundings, ends: tuple[Array, Array], move: Motion) -> RoomLack:
+        proved.append(move)
+        return lack(self, ends, move)
+
+    monkeypatch.setattr(DisplaySurroundings, "up", counted_up)
+    monkeypatch.setattr(MoveSurroundings, "lack", counted_lack)
+    mission, swarm = world(terrain=terrain(ridge(70.0)))
+    Mover(mission, swarm).move(sheet(-20.0, 30.0), sheet(120.0, 30.0), 1.0, asked())
+    assert sum(isinstance(move, LiftedMove) for move in proved) > 1
+    assert looked_up == [False]
+
+
 def test_over_terrain_the_greatest_height_counts_from_the_ground() -> None:
     shape, rules = ridge(70.0), world()[0].rules._replace(max_height=60.0)
     mission, swarm = world(terrain=terrain(shape), rules=rules)
@@ -209,7 +253,8 @@ def test_what_no_height_helps_is_no_move() -> None:
     def never(places: Array) -> Array:
         return np.where((places[:, 1] > 0.4) & (places[:, 1] < 0.6), inf, 0.0)
 
-    assert lifted(ends, Course(np.zeros(3)), never, (LIMITS, 1.0, "ease-in-out")) is None
+    course = Course(np.zeros(3))
+    assert lifted(ends, course, rising_paths(ends, course, never), (LIMITS, 1.0, "ease-in-out")) is None
 
 
 @pytest.mark.parametrize("arcs", [None, Gaps(1.0, 1.0)])
@@ -222,7 +267,8 @@ def test_a_height_that_is_asked_for_is_reached_where_it_is(arcs: Gaps | None) ->
         need = 12.0 * np.exp(-(((along - 0.3) / 0.1) ** 2))
         return np.where((along < 1e-6) | (along > 1.0 - 1e-6), 0.0, need)
 
-    move = lifted(ends, Course(np.array([40.0, 0.0, 30.0]), arcs), hill, (LIMITS, 1.0, "ease-in-out"))
+    course = Course(np.array([40.0, 0.0, 30.0]), arcs)
+    move = lifted(ends, course, rising_paths(ends, course, hill), (LIMITS, 1.0, "ease-in-out"))
     assert move is not None
     a, b, height = (sampled(channel) for channel in (*move.ctrl.T, move.lift))
     assert (height >= hill(np.column_stack([a, b])) - 0.06).all()
