@@ -265,15 +265,17 @@ def emit_plan(
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
     known = plugins.discover("emitters")
-    wanted = dict.fromkeys(plan.trajectory.keyframes.mission.emit if names is None else names)
+    emitter_names = dict.fromkeys(plan.trajectory.keyframes.mission.emit if names is None else names)
     artifacts: list[Artifact] = []
-    diagnostics = [known.faults[n] for n in wanted if n in known.faults]
+    diagnostics = [known.faults[n] for n in emitter_names if n in known.faults]
     notes: list[str] = []
     code = "P005" if names is None else "P004"
     diagnostics += [
-        plugins.not_installed(code, f"output `{n}`", [known.lacking[n]]) for n in wanted if n in known.lacking
+        plugins.not_installed(code, f"output `{n}`", [known.lacking[n]])
+        for n in emitter_names
+        if n in known.lacking
     ]
-    emitters = tuple(known.plugins[n] for n in wanted if n in known.plugins)
+    emitters = tuple(known.plugins[n] for n in emitter_names if n in known.plugins)
     emitters = emitters if saved else (PLAN_JSON, *emitters)
     for emitter, made in zip(emitters, (crew or emission.ALONE).emit(plan, emitters), strict=True):
         if not isinstance(made, Emission):
@@ -285,14 +287,14 @@ def emit_plan(
         if saved and names is not None and not made.artifacts:
             diagnostics.append(_nothing_made(emitter.name, made))
     if names is None:
-        notes += _large(plan, wanted)
+        notes += _large(plan, emitter_names)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
 
 
-def _large(plan: VerifiedIR, wanted: Collection[str]) -> Iterator[str]:
+def _large(plan: VerifiedIR, emitter_names: Collection[str]) -> Iterator[str]:
     """Yield a note on the outputs that are omitted because the show is large."""
     drones = sum(len(fleet.coef) for fleet in plan.trajectory.fleets)
-    left = [name for name in LARGE_OUTPUTS if name not in wanted]
+    left = [name for name in LARGE_OUTPUTS if name not in emitter_names]
     if drones > MANY_DRONES and left:
         yield (
             f"{' and '.join(left)} of {drones} drones would be large: made only where asked for, by "
@@ -351,11 +353,11 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
     if against is None or verdict.written is None:
         return report
     # If the mission leaves the choice of drones open, the plan's choice is valid.
-    asked = lower(*against, verdict.written.mission.source.chosen)
-    differing = differs_from(verdict.written, verdict.lowered, asked)
+    reviewed = lower(*against, verdict.written.mission.source.chosen)
+    differing = differs_from(verdict.written, verdict.lowered, reviewed)
     plan = None if has_errors(differing) else report.plan
     return PlanReport(
-        plan, report.certificate, (*report.diagnostics, *differing), {**sources, against.name: asked.file}
+        plan, report.certificate, (*report.diagnostics, *differing), {**sources, against.name: reviewed.file}
     )
 
 

@@ -31,11 +31,11 @@ def check_source(data: bytes, name: str, folder: Path | KeptFiles | None) -> Che
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
-    found = [*loaded.diagnostics]
+    diagnostics = [*loaded.diagnostics]
     if loaded.mission is not None:
         passes = passes_of(FRONT, PassSettings(kinds.plugins, plugins.names("emitters")))
-        found += run(passes, loaded.mission, PassContext()).diagnostics
-    return CheckReport(tuple(found), {name: loaded.file})
+        diagnostics += run(passes, loaded.mission, PassContext()).diagnostics
+    return CheckReport(tuple(diagnostics), {name: loaded.file})
 
 
 def models_of(kinds: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -70,11 +70,11 @@ class EmitterPool:
 
     def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
         """Run emitters and return their outcomes in order."""
-        wanted = {emitter.name for emitter in emitters}
-        busy = [work for work in self._work if wanted.intersection(work.names)]
+        names = {emitter.name for emitter in emitters}
+        busy = [work for work in self._work if names.intersection(work.names)]
         for work in busy:
             with suppress(OSError):  # a dead worker is noticed by its missing result
-                work.plan.send((plan, wanted))
+                work.plan.send((plan, names))
         away = {name for work in busy for name in work.names}
         made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in away}
         for work in busy:
@@ -136,8 +136,8 @@ def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:
     for emitter in emitters:
         with suppress(Exception):
             emitter.prepare()
-    plan, wanted = orders[i].recv()
-    outcomes = {emitter.name: _outcome(emitter, plan) for emitter in emitters if emitter.name in wanted}
+    plan, ordered = orders[i].recv()
+    outcomes = {emitter.name: _outcome(emitter, plan) for emitter in emitters if emitter.name in ordered}
     return {name: made for name, made in outcomes.items() if isinstance(made, Emission)}
 
 

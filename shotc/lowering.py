@@ -39,10 +39,10 @@ def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chose
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
-    found = list(loaded.diagnostics)
-    mission = None if loaded.mission is None else _with_chosen(loaded.mission, chosen, found)
-    if mission is None or has_errors(found):
-        return _stopped(found, loaded.file)
+    diagnostics = list(loaded.diagnostics)
+    mission = None if loaded.mission is None else _with_chosen(loaded.mission, chosen, diagnostics)
+    if mission is None or has_errors(diagnostics):
+        return _stopped(diagnostics, loaded.file)
     return _placed(mission, kinds.plugins, loaded.file, chosen.autopilot)
 
 
@@ -75,19 +75,19 @@ def _placed(
     return Lowered(with_autopilot(front.value, autopilot), (), file)
 
 
-def _stopped(found: Any, file: SourceFile) -> Lowered:
-    return Lowered(None, tuple(d for d in found if has_errors([d])), file)
+def _stopped(diagnostics: Any, file: SourceFile) -> Lowered:
+    return Lowered(None, tuple(d for d in diagnostics if has_errors([d])), file)
 
 
-def _with_chosen(mission: LoadedMission, chosen: Chosen, found: list[Diagnostic]) -> LoadedMission:
-    """Return the mission with the chosen drones; append a diagnostic to ``found`` for a shot without one."""
+def _with_chosen(mission: LoadedMission, chosen: Chosen, diagnostics: list[Diagnostic]) -> LoadedMission:
+    """Return the mission with the chosen drones; append a diagnostic for each shot without one."""
     drones = dict(chosen.drones)
     shots = mission.spec.shots
     left = {i: shot.id for i, shot in enumerate(shots) if shot.drone == AUTO}
     for i in (i for i, name in left.items() if name not in drones):
         label = mission.origins.value(("shots", i, "drone"))
         text = f"the plan does not say which drone films shot `{left[i]}`"
-        found.append(Diagnostic("V042", text, (label,), help="plan the mission again"))
+        diagnostics.append(Diagnostic("V042", text, (label,), help="plan the mission again"))
     filled = tuple(
         shot.model_copy(update={"drone": drones.get(shot.id, AUTO)}) if i in left else shot
         for i, shot in enumerate(shots)

@@ -77,14 +77,14 @@ def _mission_of(plan: Path) -> str | None:
             head = stream.read(HEAD_BYTES).decode(errors="replace")
     except OSError:
         return None
-    found = re.search(r'^  "mission": \{\s*"name": ("(?:[^"\\\n]|\\.)*")', head, re.MULTILINE)
-    return None if found is None else str(json.loads(found[1]))
+    name = re.search(r'^  "mission": \{\s*"name": ("(?:[^"\\\n]|\\.)*")', head, re.MULTILINE)
+    return None if name is None else str(json.loads(name[1]))
 
 
 def left_over(folder: Path, written: Collection[str]) -> tuple[str, ...]:
     """Return the outputs in a folder that are not among those just written, by name."""
-    found = {path.name for pattern in FLOWN + SHOWN for path in folder.glob(pattern) if path.is_file()}
-    return tuple(sorted(found.difference(written)))
+    names = {path.name for pattern in FLOWN + SHOWN for path in folder.glob(pattern) if path.is_file()}
+    return tuple(sorted(names.difference(written)))
 
 
 def write(
@@ -179,14 +179,14 @@ def _clash(artifacts: Sequence[Artifact]) -> Diagnostic | None:
 
 
 def _write_through(path: Path, artifact: Artifact, progress: Callable[[str], None] | None) -> None:
-    written = told = 0
+    written = reported = 0
     with path.open("wb") as stream:
         for part in artifact.chunks():
             stream.write(part)
             written += len(part)
-            if progress is not None and written - told >= TELL_BYTES:
+            if progress is not None and written - reported >= TELL_BYTES:
                 progress(f"writing {artifact.name}: {written // 1_000_000} MB")
-                told = written
+                reported = written
         stream.flush()
         os.fsync(stream.fileno())
 

@@ -50,18 +50,18 @@ class Record:
 
 
 def _sha256(artifact: Artifact) -> str:
-    found = sha256()
+    digest = sha256()
     for part in artifact.chunks():
-        found.update(part)
-    return found.hexdigest()
+        digest.update(part)
+    return digest.hexdigest()
 
 
 def key_of(job: Job) -> str:
     """Return the key of a job: a hash of its text, the version and all options."""
     options = job.options
     chosen = (options.refiner, options.deadline, options.autopilot, options.seed, options.headings)
-    told = repr((__version__, job.name, str(job.folder), chosen, job.emitters))
-    return sha256(told.encode() + job.data).hexdigest()
+    identity = repr((__version__, job.name, str(job.folder), chosen, job.emitters))
+    return sha256(identity.encode() + job.data).hexdigest()
 
 
 def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | None:

@@ -105,7 +105,7 @@ def import_(
         return
     asked = ImportOptions(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
-    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, asked=asked)
+    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, options=asked)
     text = _accepted(made, file, None)
     _save(text, output)
     counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"

@@ -109,12 +109,12 @@ def _stream(
 
 
 def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport) -> int:
-    from shotc.stream.report import told
+    from shotc.stream.report import timing_summary
 
     with as_interrupts(), punctual() as granted:
         flown, pilots = session.fly(aboard)
     console.out(_outcome(flown, pilots))
-    console.out(f"{told(flown.times)}{'; at real-time priority' * granted}")
+    console.out(f"{timing_summary(flown.times)}{'; at real-time priority' * granted}")
     console.report(flown.diagnostics, report.sources)
     if flown.interrupted:
         return console.EXIT_INTERRUPTED

@@ -88,19 +88,19 @@ def collective_returns(plan: VerifiedIR, every: float, progress: Callable[[str],
     ir = plan.trajectory
     homings = [Homing(ir, flight) for flight in ir.fleets]
     end = max(float(flight.breaks[-1]) for flight in ir.fleets)
-    found = []
+    returns = []
     for k in range(1, int(np.ceil(end / every))):
         time = round(k * every, 6)
         progress(f"return from {time:.0f} s of {end:.0f} s")
         fleets = tuple(homing.at(time) for homing in homings)
-        if any(way.down > time for way in fleets):
+        if any(fleet_return.down > time for fleet_return in fleets):
             between = tuple(_between(ir, time, homings, fleets))
             if all(claim.holds for claim in between):
-                found.append(Return(time, fleets, between))
+                returns.append(Return(time, fleets, between))
             else:
                 fleets = _in_turn(ir, time, homings, fleets) or fleets
-                found.append(Return(time, fleets, tuple(_between(ir, time, homings, fleets))))
-    return found
+                returns.append(Return(time, fleets, tuple(_between(ir, time, homings, fleets))))
+    return returns
 
 
 def _in_turn(
@@ -114,14 +114,16 @@ def _in_turn(
         placed: dict[int, FleetReturn] = {}
         for k in turns:
             free = (
-                way
-                for way in _choices(homings[k], time, first[k])
-                if all(_clear(ir, time, homings, (k, way), (j, other)) for j, other in placed.items())
+                fleet_return
+                for fleet_return in _choices(homings[k], time, first[k])
+                if all(
+                    _clear(ir, time, homings, (k, fleet_return), (j, other)) for j, other in placed.items()
+                )
             )
-            way = next(free, None)
-            if way is None:
+            fleet_return = next(free, None)
+            if fleet_return is None:
                 break
-            placed[k] = way
+            placed[k] = fleet_return
         if len(placed) == len(homings):
             return tuple(placed[k] for k in range(len(homings)))
     return None
@@ -132,10 +134,10 @@ def _choices(homing: Homing, time: float, first: FleetReturn) -> Iterator[FleetR
     yield first
     if first.track is None:
         return
-    ways = [way for way in homing.ways(time) if way.holds]
+    ways = [fleet_return for fleet_return in homing.ways(time) if fleet_return.holds]
     yield from ways[1:]
     for seconds in WAITS_S:
-        yield from (later for way in ways if (later := homing.waiting(way, seconds)).holds)
+        yield from (later for fleet_return in ways if (later := homing.waiting(fleet_return, seconds)).holds)
 
 
 def _clear(
@@ -145,10 +147,10 @@ def _clear(
     one: tuple[int, FleetReturn],
     other: tuple[int, FleetReturn],
 ) -> bool:
-    (i, way), (j, beside) = one, other
+    (i, fleet_return), (j, beside) = one, other
     mission = ir.keyframes.mission
-    flown = homings[i].flown(time, way), homings[j].flown(time, beside)
-    return between(mission, (mission.fleet(way.fleet), mission.fleet(beside.fleet)), *flown).holds
+    flown = homings[i].flown(time, fleet_return), homings[j].flown(time, beside)
+    return between(mission, (mission.fleet(fleet_return.fleet), mission.fleet(beside.fleet)), *flown).holds
 
 
 def _between(
@@ -158,7 +160,7 @@ def _between(
     if len(fleets) == 1:
         return []
     mission, claims = ir.keyframes.mission, []
-    flown = [homing.flown(time, way) for homing, way in zip(homings, fleets, strict=True)]
+    flown = [homing.flown(time, fleet_return) for homing, fleet_return in zip(homings, fleets, strict=True)]
     for i, j in combinations(range(len(fleets)), 2):
         pair = mission.fleet(fleets[i].fleet), mission.fleet(fleets[j].fleet)
         claims.append(between(mission, pair, flown[i], flown[j]))

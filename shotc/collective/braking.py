@@ -89,8 +89,8 @@ class FlightSpline:
         total = sum(programme)
         count = max(LEAST_PIECES, int(np.ceil(total / PIECE_S)))
         h = total / count
-        since: Array = h * np.arange(count + 1, dtype=np.float64)
-        s, rate, bend = _scaled(since, *programme)
+        elapsed: Array = h * np.arange(count + 1, dtype=np.float64)
+        s, rate, bend = _scaled(elapsed, *programme)
         at = time + s
         place, velocity, acceleration = (self.at(at, order, rows) for order in range(3))
         q2 = acceleration * rate[:, None] ** 2 + velocity * bend[:, None]
@@ -100,7 +100,7 @@ class FlightSpline:
         first = [ctrl[:, 0] + turn - step, ctrl[:, 0], ctrl[:, 0] + turn + step]
         last = [place[:, -1]] * DEGREE
         coef = np.concatenate([np.stack(first, 1), ctrl[:, 2:-2], np.stack(last, 1)], axis=1)
-        return Rest(time + since, coef)
+        return Rest(time + elapsed, coef)
 
     def _busiest(self, time: float, end: float) -> Array:
         """Return the rows of the drones with the largest speeds and accelerations in a time interval."""
@@ -113,16 +113,16 @@ class FlightSpline:
 
 def _programmes(less: float) -> Iterator[tuple[float, float]]:
     """Yield delays and braking times with a sum below ``less`` seconds, the shortest sum first."""
-    found = [both for both in product(DELAYS_S, BRAKING_S) if sum(both) < less]
-    yield from sorted(found, key=lambda both: (sum(both), both[0]))
+    programmes = [both for both in product(DELAYS_S, BRAKING_S) if sum(both) < less]
+    yield from sorted(programmes, key=lambda both: (sum(both), both[0]))
 
 
-def _scaled(since: Array, delay: float, braking: float) -> tuple[Array, Array, Array]:
-    """Return s, s' and s'' (see the module) at seconds since t0, in the shape of ``since``; s
+def _scaled(elapsed: Array, delay: float, braking: float) -> tuple[Array, Array, Array]:
+    """Return s, s' and s'' (see the module) at seconds since t0, in the shape of ``elapsed``; s
     counts from t0.
     """
-    u = np.clip((since - delay) / braking, 0.0, 1.0)
-    s = np.minimum(since, delay) + braking * (u - u**3 + 0.5 * u**4)
+    u = np.clip((elapsed - delay) / braking, 0.0, 1.0)
+    s = np.minimum(elapsed, delay) + braking * (u - u**3 + 0.5 * u**4)
     return s, 1.0 - 3.0 * u**2 + 2.0 * u**3, 6.0 * (u**2 - u) / braking
 
 

@@ -24,18 +24,18 @@ class _Broken(NamedTuple):
 
 def no_return(mission: MissionIR, returns: Sequence[Return]) -> Iterator[Diagnostic]:
     """Yield V063 for every run of consecutive times whose returns break the same limit."""
-    worst = [_Broken(found, next(iter(found.broken), None)) for found in returns]
+    worst = [_Broken(attempt, next(iter(attempt.broken), None)) for attempt in returns]
     for cause, row in groupby(worst, key=_cause):
         if cause is not None:
-            yield _told(mission, [(found, claim) for found, claim in row if claim is not None])
+            yield _diagnostic(mission, [(attempt, claim) for attempt, claim in row if claim is not None])
 
 
 def _cause(broken: _Broken) -> tuple[str, str] | None:
     return None if broken.claim is None else (broken.claim.subject, broken.claim.constraint)
 
 
-def _told(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic:
-    found, claim = max(row, key=lambda broken: abs(broken[1].worst - broken[1].limit))
+def _diagnostic(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic:
+    attempt, claim = max(row, key=lambda broken: abs(broken[1].worst - broken[1].limit))
     reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
     first, last = row[0][0].time, row[-1][0].time
     when = f"at {first:g} s" if len(row) == 1 else f"at {len(row)} times from {first:g} s to {last:g} s"
@@ -47,7 +47,7 @@ def _told(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic
         f"fleet `{claim.subject}` has no return {when}",
         (limit_label(mission, claim, needed),),
         (
-            f"the nearest to one, from {found.time:g} s, breaks {claim.constraint}: {reached}, {needed} is "
+            f"the nearest to one, from {attempt.time:g} s, breaks {claim.constraint}: {reached}, {needed} is "
             f"{'allowed' if claim.upper else 'needed'}{who}{at}",
             "three ways were tried: over the pads from where it brakes, the same from its next stop, and "
             "back as it came",

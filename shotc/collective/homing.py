@@ -93,52 +93,54 @@ class Homing:
             over = self.flight.phases[-1].start
             return FleetReturn(name, time, max(time, over), max(time, end), None, ())
         tried: list[FleetReturn] = []
-        for way in self.ways(time):
-            if way.holds:
-                return way
-            tried.append(way)
+        for fleet_return in self.ways(time):
+            if fleet_return.holds:
+                return fleet_return
+            tried.append(fleet_return)
         # Waiting lets a camera pass and a pyrotechnic product burn out.
         if self.ir.drones or burning_at(self.ir.keyframes.mission, name, time):
-            waited = (self.waiting(way, seconds) for seconds, way in product(WAITS_S, tried))
-            return next((way for way in waited if way.holds), tried[0])
+            waited = (
+                self.waiting(fleet_return, seconds) for seconds, fleet_return in product(WAITS_S, tried)
+            )
+            return next((fleet_return for fleet_return in waited if fleet_return.holds), tried[0])
         return tried[0]
 
     def ways(self, time: float) -> Iterator[FleetReturn]:
         """Yield the ways home from a time at which the fleet is in the air and not yet on its
         planned return.
         """
-        for found in self._ways(time):
-            yield replace(found, claims=(*found.claims, self._endurance(found.down)))
+        for fleet_return in self._ways(time):
+            yield replace(fleet_return, claims=(*fleet_return.claims, self._endurance(fleet_return.down)))
 
-    def waiting(self, way: FleetReturn, seconds: float) -> FleetReturn:
+    def waiting(self, fleet_return: FleetReturn, seconds: float) -> FleetReturn:
         """Return a way home on which the fleet waits for some seconds at its rest."""
-        track = way.track
+        track = fleet_return.track
         assert track is not None
-        at = int(np.searchsorted(track.breaks, way.rest - NEAR_S))
+        at = int(np.searchsorted(track.breaks, fleet_return.rest - NEAR_S))
         breaks = np.concatenate([track.breaks[: at + 1], track.breaks[at:] + seconds])
         coef = np.insert(track.coef, at + 1, track.coef[:, at], axis=1)
         phases = tuple(
-            replace(p, start=p.start + seconds * (p.start > way.rest + NEAR_S), end=p.end + seconds)
+            replace(p, start=p.start + seconds * (p.start > fleet_return.rest + NEAR_S), end=p.end + seconds)
             for p in track.phases
         )
-        flown = self._claimed(replace(track, breaks=breaks, coef=coef, phases=phases), way.rest)
+        flown = self._claimed(replace(track, breaks=breaks, coef=coef, phases=phases), fleet_return.rest)
         claims = (*flown.claims, self._endurance(flown.down))
         return replace(flown, claims=claims, waits=seconds)
 
-    def flown(self, time: float, way: FleetReturn) -> tuple[Array, Array]:
+    def flown(self, time: float, fleet_return: FleetReturn) -> tuple[Array, Array]:
         """Return the whole flight from the time of a return on: breaks (P + 1,) and control points (n, P + 3,
         3).
         """
         planned = rest_of(self.flight.breaks, self.flight.coef, time)
-        if way.track is None:
+        if fleet_return.track is None:
             return planned
-        if float(way.track.breaks[0]) <= time:
-            return way.track.breaks, way.track.coef
+        if float(fleet_return.track.breaks[0]) <= time:
+            return fleet_return.track.breaks, fleet_return.track.coef
         breaks, coef = planned
-        count = int(np.searchsorted(breaks, way.rest)) + 1
+        count = int(np.searchsorted(breaks, fleet_return.rest)) + 1
         return (
-            np.concatenate([breaks[:count], way.track.breaks[1:]]),
-            np.concatenate([coef[:, : count + DEGREE - 1], way.track.coef[:, DEGREE:]], axis=1),
+            np.concatenate([breaks[:count], fleet_return.track.breaks[1:]]),
+            np.concatenate([coef[:, : count + DEGREE - 1], fleet_return.track.coef[:, DEGREE:]], axis=1),
         )
 
     def _ways(self, time: float) -> Iterator[FleetReturn]:
@@ -158,11 +160,11 @@ class Homing:
         yield self._once(self._from_stop, stop, rest)
         yield self._once(self._as_it_came, stop, rest)
 
-    def _once(self, way: _Way, stop: int, time: float) -> FleetReturn:
+    def _once(self, make_return: _Way, stop: int, time: float) -> FleetReturn:
         """Return a way home from a stop; it is verified only once if nothing around it moves or burns."""
-        known = self._known.get((way, stop))
+        known = self._known.get((make_return, stop))
         if known is None or not self._same:
-            known = self._known[way, stop] = way(stop, time)
+            known = self._known[make_return, stop] = make_return(stop, time)
         return _moved(known, time)
 
     def _from_stop(self, stop: int, time: float) -> FleetReturn:

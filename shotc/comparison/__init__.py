@@ -76,8 +76,8 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
         conditions += (_under(refiner, path, smoothing, options) for refiner in options.refiners)
     assert first is not None
     path, done = first
-    found = Comparison(path.keyframes.mission, tuple(conditions), differences(conditions))
-    return Report(found, done.diagnostics, done.sources)
+    comparison = Comparison(path.keyframes.mission, tuple(conditions), differences(conditions))
+    return Report(comparison, done.diagnostics, done.sources)
 
 
 def _without_show(path: PathIR) -> PathIR:

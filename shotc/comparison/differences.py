@@ -29,7 +29,7 @@ def differences(conditions: Sequence[Condition]) -> tuple[ShotDifference, ...]:
     if len(planned) < 2:
         return ()
     *others, last = planned
-    return tuple(found for one in others for found in sorted(_of(one, last), key=lambda d: -d.mean))
+    return tuple(difference for one in others for difference in sorted(_of(one, last), key=lambda d: -d.mean))
 
 
 def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) -> Iterator[ShotDifference]:

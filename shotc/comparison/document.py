@@ -41,9 +41,9 @@ def _condition(each: Condition, *, seconds: bool) -> dict[str, Any]:
         "package": each.package,
         "smoothing_s": each.smoothing,
         "planned": each.plan is not None,
-        "faults": _told(each.faults),
-        "broken_promises": _told(each.broken),
-        "left_convex": _told(each.convex),
+        "faults": _diagnostic_documents(each.faults),
+        "broken_promises": _diagnostic_documents(each.broken),
+        "left_convex": _diagnostic_documents(each.convex),
         "all": None if each.score is None else _encoded(each.score._asdict()),
         "shots": [_shot(shot) for shot in each.shots],
     } | ({"refine_seconds": each.seconds} if seconds else {})
@@ -59,7 +59,7 @@ def _encoded(values: dict[str, Any]) -> dict[str, Any]:
     return {name: encode(value) for name, value in values.items()}
 
 
-def _told(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
+def _diagnostic_documents(diagnostics: Sequence[Diagnostic]) -> list[dict[str, Any]]:
     return [
         {"code": d.code, "message": d.message, "notes": list(d.notes), "help": d.help} for d in diagnostics
     ]

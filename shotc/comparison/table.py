@@ -60,15 +60,15 @@ def remarks(comparison: Comparison) -> list[str]:
         ]
         lines += [f"{each.name} breaks a promise, {d.code}: {d.message}" for d in each.broken]
         lines += [f"{each.name} did not refine all, {d.code}: {d.message}" for d in each.convex]
-    return [*lines, *map(_told, comparison.differences)]
+    return [*lines, *map(_remark_on, comparison.differences)]
 
 
-def _told(found: ShotDifference) -> str:
-    at, there = (f"{time:.1f} s" for time in (found.time, found.other_time))
+def _remark_on(d: ShotDifference) -> str:
+    at, there = (f"{time:.1f} s" for time in (d.time, d.other_time))
     there = "" if at == there else f" ({there} there)"
     return (
-        f"{found.condition} differs most from {found.other} in shot {found.shot} at {at}{there}: "
-        f"{found.metres:.2f} m, {found.degrees:.1f} deg; mean of metres plus degrees {found.mean:.2f}"
+        f"{d.condition} differs most from {d.other} in shot {d.shot} at {at}{there}: "
+        f"{d.metres:.2f} m, {d.degrees:.1f} deg; mean of metres plus degrees {d.mean:.2f}"
     )
 
 

@@ -142,9 +142,9 @@ def picture_name(picture: Picture) -> str:
 
 def pictures_shown(flight: FleetTrajectory) -> list[FrameTimes]:
     """Return the time from the first to the last frame of each picture of a fleet."""
-    found: dict[tuple[str, int], FrameTimes] = {}
+    times: dict[tuple[str, int], FrameTimes] = {}
     for shown in flight.shown:
         key = (shown.display, shown.picture)
-        first = found.get(key, shown)
-        found[key] = FrameTimes(first.display, first.picture, first.index, first.start, shown.end)
-    return list(found.values())
+        first = times.get(key, shown)
+        times[key] = FrameTimes(first.display, first.picture, first.index, first.start, shown.end)
+    return list(times.values())

@@ -154,8 +154,8 @@ def _block(
 ) -> list[str]:
     (shot, target), mission = of, plan.trajectory.keyframes.mission
     frames = seen(mission, track, target, t, others)
-    wanted = references(track, shot, target, t)
-    numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
+    reference = references(track, shot, target, t)
+    numbers = np.column_stack([frames.u, frames.v, reference, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
     covered = _judged(plan, (track.drone, shot, target), t)
     missing = np.isnan(covered)
@@ -183,8 +183,8 @@ def _sharp(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: A
         return [""] * len(t)
     if mission.drone(track.drone).optics is None:
         return [",,,,,"] * len(t)
-    found = sharpness(mission, track, *of, t)
-    columns = [found.focus, found.near, found.far, found.motion, found.background]
+    sharp = sharpness(mission, track, *of, t)
+    columns = [sharp.focus, sharp.near, sharp.far, sharp.motion, sharp.background]
     return [f",{_cells(row)}" for row in np.column_stack(columns).tolist()]
 
 
@@ -194,11 +194,11 @@ def _judged(plan: VerifiedIR, of: tuple[str, str, str], t: Array) -> Array:
     of : drone, shot and target
     """
     share = np.full(len(t), np.nan)
-    for found in plan.covered:
-        if (found.drone, found.shot, found.target) == of:
-            near = np.minimum(np.searchsorted(found.times, t), len(found.times) - 1)
-            same = found.times[near] == t
-            share[same] = found.share[near[same]]
+    for cover in plan.covered:
+        if (cover.drone, cover.shot, cover.target) == of:
+            near = np.minimum(np.searchsorted(cover.times, t), len(cover.times) - 1)
+            same = cover.times[near] == t
+            share[same] = cover.share[near[same]]
     return share
 
 

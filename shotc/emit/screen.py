@@ -87,8 +87,8 @@ def screen_track(
     """
     shot, target = subject
     frames = projected(plan.trajectory.keyframes.mission, flight, target, t)
-    wanted = references(flight, shot, target, t)
-    error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
+    reference = references(flight, shot, target, t)
+    error = np.hypot(frames.u - reference[:, 0], frames.v - reference[:, 1])
     return ScreenTrack(flight.drone, shot, target, t, error, frames.in_frame)
 
 

@@ -59,8 +59,8 @@ def aligned(
     """
     mission, rows = keyframes.mission, flown.rows
     curve, looks = _with_camera(drone, flown)
-    told = None if rows is None else _told(mission, rows, curve)
-    phases = _by_mission(mission, drone, curve, upright) if told is None else told
+    from_table = None if rows is None else _table_phases(mission, rows, curve)
+    phases = _by_mission(mission, drone, curve, upright) if from_table is None else from_table
     bare = DroneTrajectory(drone.name, curve, phases, (), ())
     at: list[KeyframeTime] = []
     framing: list[Reference] = []
@@ -75,7 +75,7 @@ def aligned(
     own = (shot.id for shot in mission.shots if shot.drone == drone.name)
     missing = tuple(shot for shot in own if shot not in filmed)
     faces = rows is not None and rows.values(*BODY) is not None
-    return Aligned(track, told is not None, missing, looks, faces)
+    return Aligned(track, from_table is not None, missing, looks, faces)
 
 
 def _with_camera(drone: Drone, flown: ClockedFlight) -> tuple[Piecewise, bool]:
@@ -105,15 +105,15 @@ def lens_of(rows: DroneRows) -> Array | None:
 
     Raises Unread if a value is outside the range of lenses.
     """
-    found = rows.values(CAMERA[2])
-    if found is None:
+    columns = rows.values(CAMERA[2])
+    if columns is None:
         return None
     low, high = HFOV_RANGE_RAD
-    wrong = np.flatnonzero((found[:, 0] < low) | (found[:, 0] > high))
+    wrong = np.flatnonzero((columns[:, 0] < low) | (columns[:, 0] > high))
     if len(wrong):
-        angle = float(np.degrees(found[wrong[0], 0]))
+        angle = float(np.degrees(columns[wrong[0], 0]))
         refuse(BROKEN, f"a field of view of {angle:.4g} deg is none of a lens", rows.node(int(wrong[0])))
-    return np.asarray(found[:, 0])
+    return np.asarray(columns[:, 0])
 
 
 def _straight(values: Array) -> Array:
@@ -122,7 +122,7 @@ def _straight(values: Array) -> Array:
     return np.asarray(values[:-1, None] + share * np.diff(values)[:, None])
 
 
-def _told(mission: MissionIR, rows: DroneRows, curve: Piecewise) -> tuple[Phase, ...] | None:
+def _table_phases(mission: MissionIR, rows: DroneRows, curve: Piecewise) -> tuple[Phase, ...] | None:
     """Return the phases in the table; None if it has none that are known here.
 
     A shot lasts from its first row to its last. The time between two other phases belongs to the later one if
@@ -236,8 +236,8 @@ def _subjects(mission: MissionIR, placed: PlacedShot, phase: Phase) -> Iterator[
     """Yield the subjects of a shot on its own clock, with the mission's reference at every tick."""
     times = ticks(mission.rate, phase.start, phase.end)
     for subject in placed.subjects:
-        wanted = [subject.asked(float(t) - phase.start).place for t in times]
-        known = None if subject.reference is None or any(place is None for place in wanted) else wanted
+        places = [subject.asked(float(t) - phase.start).place for t in times]
+        known = None if subject.reference is None or any(place is None for place in places) else places
         line = None if known is None else _line(times, np.array(known, dtype=float))
         yield Reference(placed.shot.id, subject.target, phase.start, phase.end, line)
 

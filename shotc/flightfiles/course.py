@@ -182,7 +182,7 @@ def _models(points: Sequence[FlightPoint], places: Array, plan: Waypoints) -> li
     stops = np.array([point.stops for point in points])
     if len(points) == 1:
         return [("straight legs", [])]
-    found = [("straight legs", _each(paths.cubics(places, stops, paths.straight, cut=True)))]
+    models = [("straight legs", _each(paths.cubics(places, stops, paths.straight, cut=True)))]
     bends = plan.family == "dji" and not all(point.straight for point in points)
     bends |= plan.family == "mavlink" and not all(point.straight for point in points[1:])
     if bends:
@@ -190,11 +190,11 @@ def _models(points: Sequence[FlightPoint], places: Array, plan: Waypoints) -> li
             ends = "" if not stops[1:-1].any() else ", anew at stops" if cut else ", on through stops"
             if cut or ends:
                 for name, tangents in SPLINES.items():
-                    found.append((f"{name}{ends}", _each(paths.cubics(places, stops, tangents, cut=cut))))
+                    models.append((f"{name}{ends}", _each(paths.cubics(places, stops, tangents, cut=cut))))
     sizes = _sizes(points, places)
     if sizes.any():
-        found.append(("straight legs with rounded corners", list(paths.corners(places, sizes))))
-    return found
+        models.append(("straight legs with rounded corners", list(paths.corners(places, sizes))))
+    return models
 
 
 def _each(ctrl: Array) -> list[Array]:
@@ -205,9 +205,9 @@ def _sizes(points: Sequence[FlightPoint], places: Array) -> Array:
     """Return the rounding distance of each corner, metres, shape (m,); 0 where the machine stands still."""
     length = np.linalg.norm(np.diff(places, axis=0), axis=1)
     shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
-    asked = np.array([0.0 if point.stops else point.curve for point in points])
-    asked[0] = asked[-1] = 0.0
-    return np.asarray(np.minimum(asked, 0.5 * shorter))
+    sizes = np.array([0.0 if point.stops else point.curve for point in points])
+    sizes[0] = sizes[-1] = 0.0
+    return np.asarray(np.minimum(sizes, 0.5 * shorter))
 
 
 def _approach(
@@ -236,13 +236,13 @@ def _legs(
     for i, (point, file, at) in enumerate(kept):
         if point.stay > 0.0:
             stay = _straight((at, at), (point, file), (drone, None), count)
-            lasts = min(max(point.stay, BRIEFEST_S), LONGEST_S)
-            yield stay._replace(seconds=lasts, speed=0.0)
+            duration = min(max(point.stay, BRIEFEST_S), LONGEST_S)
+            yield stay._replace(seconds=duration, speed=0.0)
         if i + 1 < len(kept):
             to, name, end = kept[i + 1]
-            lasts, speed = _lasts(end - at, _in_force(drone, plan, point.pace))
-            told = None if point.pace is None else speed
-            yield _Part(tuple(legs[i] for legs in models), (to, name), lasts, told, within=True)
+            duration, speed = _duration(end - at, _in_force(drone, plan, point.pace))
+            speed_limit = None if point.pace is None else speed
+            yield _Part(tuple(legs[i] for legs in models), (to, name), duration, speed_limit, within=True)
 
 
 def _straight(
@@ -251,8 +251,8 @@ def _straight(
     a, b = ends
     share = np.linspace(0.0, 1.0, 4)[:, None]
     ctrl = (a + share * (b - a))[None]
-    lasts, _ = _lasts(b - a, _in_force(by[0], None, by[1]))
-    return _Part((ctrl,) * count, to, lasts, None)
+    duration, _ = _duration(b - a, _in_force(by[0], None, by[1]))
+    return _Part((ctrl,) * count, to, duration, None)
 
 
 def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
@@ -265,20 +265,20 @@ def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
         return Pace(usual.ground, usual.climb, usual.descent)
     if isfinite(pace.along):
         return pace
-    told = zip(pace[:3], (usual.ground, usual.climb, usual.descent), strict=True)
-    ground, climb, descent = (a if isfinite(a) else b for a, b in told)
+    speeds = zip(pace[:3], (usual.ground, usual.climb, usual.descent), strict=True)
+    ground, climb, descent = (a if isfinite(a) else b for a, b in speeds)
     return Pace(ground, climb, descent)
 
 
-def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
+def _duration(step: Array, pace: Pace) -> tuple[float, float]:
     """Return the duration of a straight leg, seconds, and its speed along the path, m/s."""
-    length = float(np.linalg.norm(way))
+    length = float(np.linalg.norm(step))
     if isfinite(pace.along):
-        lasts = length / pace.along
+        duration = length / pace.along
     else:
-        lasts = seconds(Speeds(*pace[:3]), hypot(way[0], way[1]), float(way[2]))
-    lasts = min(max(lasts, BRIEFEST_S), LONGEST_S)
-    return lasts, length / lasts
+        duration = seconds(Speeds(*pace[:3]), hypot(step[0], step[1]), float(step[2]))
+    duration = min(max(duration, BRIEFEST_S), LONGEST_S)
+    return duration, length / duration
 
 
 def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[UntimedLeg, ...]]:

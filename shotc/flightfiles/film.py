@@ -54,11 +54,11 @@ def judged(
             claims += energy(flight)  # straight lines would show no acceleration
         for own in claims:
             yield placed(flown, own)
-    found = [each.track for each in tracks]
-    if 1 < len(found) <= MOST_PAIRWISE_DRONES:
-        for own in separation(present[: len(found)], []):
+    tracks_flown = [each.track for each in tracks]
+    if 1 < len(tracks_flown) <= MOST_PAIRWISE_DRONES:
+        for own in separation(present[: len(tracks_flown)], []):
             yield placed(named[own.subject], own)
-    elif len(found) > MOST_PAIRWISE_DRONES:
+    elif len(tracks_flown) > MOST_PAIRWISE_DRONES:
         yield _nearest(mission.rules.separation, flights)
     looking = {each.track.drone for each in tracks if each.looks}
     for own in sights(present):
@@ -66,12 +66,12 @@ def judged(
             yield placed(named[own.subject], own)
 
 
-def placed(flown: ClockedFlight, found: Claim) -> FileClaim:
+def placed(flown: ClockedFlight, stated: Claim) -> FileClaim:
     """Return a claim with its place in the file; it holds up to the file's uncertainty."""
-    kept = to_tolerance(found, {"m": flown.leeway.place})
-    if found.time is None:
+    kept = to_tolerance(stated, {"m": flown.leeway.place})
+    if stated.time is None:
         return FileClaim(kept, None)
-    return FileClaim(kept, flown.at(found.time), when(flown, found.time))
+    return FileClaim(kept, flown.at(stated.time), when(flown, stated.time))
 
 
 def _motion(flight: JudgedFlight, flown: ClockedFlight) -> Iterator[FileClaim]:
@@ -112,17 +112,19 @@ def _claims(
     yield from from_fleets(ir, [flight])
 
 
-def _of_keyframes(found: Claim) -> bool:
+def _of_keyframes(stated: Claim) -> bool:
     """Return whether a claim is about references, which are made here and are not in the file."""
-    return found.constraint.startswith(("frames without", "reference off", "keyframes without"))
+    return stated.constraint.startswith(("frames without", "reference off", "keyframes without"))
 
 
 def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None = None) -> FileClaim:
     """Return the claim on the separation of many drones: that of the nearest pair."""
-    found = closest_of([flight.curve for flight in flights], Apart("ellipsoid", least, least, 0.0), first)
-    one, other = flights[found.first], flights[found.second]
+    nearest = closest_of([flight.curve for flight in flights], Apart("ellipsoid", least, least, 0.0), first)
+    one, other = flights[nearest.first], flights[nearest.second]
     limit = Limit(f"separation from {other.name}", least, "m", ("rules", "separation"), upper=False)
-    return placed(one, held(one.name, limit, WorstValue(found.proven, found.time, "bounded", found.position)))
+    return placed(
+        one, held(one.name, limit, WorstValue(nearest.proven, nearest.time, "bounded", nearest.position))
+    )
 
 
 def beside_fleets(
@@ -133,9 +135,9 @@ def beside_fleets(
         yield _nearest(least, [*films, *shown], len(films))
 
 
-def unkept(keyframes: KeyframeIR, each: Aligned, found: Sequence[FileClaim]) -> Iterator[str]:
+def unkept(keyframes: KeyframeIR, each: Aligned, claims: Sequence[FileClaim]) -> Iterator[str]:
     """Yield the promises of shots on which there is no claim, with the reason."""
-    names = [(own.claim.shot, own.claim.constraint) for own in found]
+    names = [(own.claim.shot, own.claim.constraint) for own in claims]
     ends = {"in_frame": " in frame", "screen_error": " screen error", "size": " size ", "visible": " visible"}
     unseen = (
         "its camera's angles are not in the file" if not each.looks else "its target has no place on screen"

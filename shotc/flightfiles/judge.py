@@ -49,17 +49,19 @@ class FileClaim(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def _found(course: UntimedFlight, claim: Claim, way: str = "") -> FileClaim:
+def _file_claim(course: UntimedFlight, claim: Claim, curve_name: str = "") -> FileClaim:
     """Return a claim about a course.
 
-    way : description of the curve with the worst value, if it matters
+    curve_name : description of the curve with the worst value, if it matters
     """
     if claim.time is None:
         return FileClaim(claim, None)
     leg = course.leg_at(claim.time)
     where = label(leg.file, leg.to.node)._replace(text=_on(leg))
     notes = (f"{claim.time:.1f} s from take-off at the file's speeds",)
-    return FileClaim(claim, where, (*notes, f"on {way}, which its machine may fly") if way else notes)
+    return FileClaim(
+        claim, where, (*notes, f"on {curve_name}, which its machine may fly") if curve_name else notes
+    )
 
 
 def _on(leg: UntimedLeg) -> str:
@@ -74,22 +76,22 @@ def judged(mission: MissionIR, courses: Sequence[UntimedFlight], keyframes: Keyf
     """
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
     ir_of = keyframes._replace(mission=standing)
-    found: list[FileClaim] = []
+    stated: list[FileClaim] = []
     for course in courses:
         claims = [*_limits(course), *_paces(course)]
-        found += [_found(course, each) for each in claims]
-        found += _space(standing, course, ir_of, courses)
-    found += [each for pair in combinations(courses, 2) for each in _apart(standing, pair)]
-    return [each._replace(claim=to_tolerance(each.claim, TOLERANCES)) for each in found]
+        stated += [_file_claim(course, each) for each in claims]
+        stated += _space(standing, course, ir_of, courses)
+    stated += [each for pair in combinations(courses, 2) for each in _apart(standing, pair)]
+    return [each._replace(claim=to_tolerance(each.claim, TOLERANCES)) for each in stated]
 
 
-def to_tolerance(found: Claim, tolerances: Mapping[str, float]) -> Claim:
+def to_tolerance(stated: Claim, tolerances: Mapping[str, float]) -> Claim:
     """Return a claim that also holds if its value exceeds the limit by at most the tolerance.
 
     tolerances : by unit
     """
-    over = found.worst - found.limit if found.upper else found.limit - found.worst
-    return replace(found, holds=found.holds or over <= tolerances.get(found.unit, 0.0))
+    over = stated.worst - stated.limit if stated.upper else stated.limit - stated.worst
+    return replace(stated, holds=stated.holds or over <= tolerances.get(stated.unit, 0.0))
 
 
 def _flight(mission: MissionIR, course: UntimedFlight, curve: Piecewise) -> JudgedFlight:
@@ -104,7 +106,7 @@ def _space(
 ) -> Iterator[FileClaim]:
     """Yield the claims on the mission's world on the worst of all curves, and on drones on their pads."""
     worst: dict[str, FileClaim] = {}
-    for way, curve in course.ways:
+    for name, curve in course.ways:
         flight = _flight(mission, course, curve)
         others = [_first_way(each) for each in courses if each is not course]
         ir = TrajectoryIR(keyframes, (flight.track, *others), (), ())
@@ -114,7 +116,7 @@ def _space(
                 continue
             before = worst.get(each.constraint)
             if before is None or _less(each, before.claim):
-                worst[each.constraint] = _found(course, each, way if len(course.ways) > 1 else "")
+                worst[each.constraint] = _file_claim(course, each, name if len(course.ways) > 1 else "")
     yield from worst.values()
 
 
@@ -148,10 +150,10 @@ def _limits(course: UntimedFlight) -> Iterator[Claim]:
     last = course.legs[-1].end
     limit = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
     yield held(name, limit, WorstValue(last, last, "exact"))
-    asked = [(radians(angle), leg.start) for leg in course.legs for angle in leg.to.pitches]
+    pitches = [(radians(angle), leg.start) for leg in course.legs for angle in leg.to.pitches]
     for which, value, upper in (("min", drone.gimbal.pitch[0], False), ("max", drone.gimbal.pitch[1], True)):
-        if asked:
-            worst, time = max(asked) if upper else min(asked)
+        if pitches:
+            worst, time = max(pitches) if upper else min(pitches)
             limit = Limit(
                 f"gimbal pitch {which}", value, "rad", (*drone.path, "gimbal", "pitch"), upper=upper
             )
@@ -163,18 +165,18 @@ def _paces(course: UntimedFlight) -> Iterator[Claim]:
 
     The speeds are those on straight legs, because the speeds on a machine's curves are not published.
     """
-    asked = []
+    paces = []
     for leg in course.legs:
         if leg.speed is not None:
             start, end = course.ways[0][1](np.array([leg.start, leg.end]))
             east, north, up = ((end - start) / (leg.end - leg.start)).tolist()
-            asked.append(((hypot(east, north), up, -up), leg.start))
+            paces.append(((hypot(east, north), up, -up), leg.start))
     limits = course.drone.limits
     for k, (name, most) in enumerate(
         (("speed", limits.speed), ("climb", limits.climb), ("descent", limits.descent))
     ):
-        if asked:
-            worst, time = max((parts[k], time) for parts, time in asked)
+        if paces:
+            worst, time = max((parts[k], time) for parts, time in paces)
             limit = Limit(name, most, "m/s", (*course.drone.path, "limits", name))
             yield held(course.drone.name, limit, WorstValue(max(worst, 0.0), time, "exact"))
 
@@ -190,8 +192,8 @@ def apart_at_any_time(mission: MissionIR, one: UntimedFlight, name: str, other: 
     pair of times.
     """
     least = mission.rules.separation
-    found = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
+    meeting = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
     limit = Limit(f"separation from {name}", least, "m", ("rules", "separation"), upper=False)
     flight = _flight(mission, one, one.ways[0][1])
-    kept = to_tolerance(claim(flight, limit, WorstValue(found.proven, found.one)), TOLERANCES)
-    return _found(one, kept)
+    kept = to_tolerance(claim(flight, limit, WorstValue(meeting.proven, meeting.one)), TOLERANCES)
+    return _file_claim(one, kept)

@@ -35,7 +35,7 @@ class Owned(NamedTuple):
 
 
 def owners(
-    mission: MissionIR, names: Sequence[str], told: Sequence[str]
+    mission: MissionIR, names: Sequence[str], given: Sequence[str]
 ) -> tuple[tuple[Owned, ...], tuple[Diagnostic, ...]]:
     """Return the drones that have files, in the mission's order, and faults on files without a drone.
 
@@ -43,22 +43,22 @@ def owners(
     and so on for the parts of one flight. If the mission has one drone, every file belongs to it.
 
     names : of the files
-    told : drone of each file by the user's options, or empty
+    given : drone of each file by the user's options, or empty
     """
     known = {drone.name: drone for drone in mission.drones}
-    found: dict[str, list[tuple[int, int]]] = {}
+    parts: dict[str, list[tuple[int, int]]] = {}
     faults: list[Diagnostic] = []
     for i, name in enumerate(names):
-        drone, part = _of(name, known) if not told else (told[i], i)
+        drone, part = _of(name, known) if not given else (given[i], i)
         if drone in known:
-            found.setdefault(drone, []).append((part, i))
+            parts.setdefault(drone, []).append((part, i))
         else:
-            faults.append(_nobody(name, told[i] if told else "", list(known)))
-    faults += _twice(found, names)
+            faults.append(_nobody(name, given[i] if given else "", list(known)))
+    faults += _twice(parts, names)
     owned = tuple(
-        Owned(drone, tuple(i for _, i in sorted(found[drone.name])))
+        Owned(drone, tuple(i for _, i in sorted(parts[drone.name])))
         for drone in mission.drones
-        if drone.name in found
+        if drone.name in parts
     )
     return owned, tuple(faults)
 
@@ -76,10 +76,10 @@ def _of(name: str, known: dict[str, Drone]) -> tuple[str, int]:
     return (next(iter(known)), part) if len(known) == 1 else ("", 0)
 
 
-def _nobody(name: str, told: str, known: list[str]) -> Diagnostic:
+def _nobody(name: str, given: str, known: list[str]) -> Diagnostic:
     drones = ", ".join(f"`{drone}`" for drone in known)
     message = (
-        f"the mission has no drone `{told}`" if told else f"`{name}` is named after no drone of the mission"
+        f"the mission has no drone `{given}`" if given else f"`{name}` is named after no drone of the mission"
     )
     return Diagnostic(
         NOBODY,
@@ -90,10 +90,10 @@ def _nobody(name: str, told: str, known: list[str]) -> Diagnostic:
     )
 
 
-def _twice(found: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> list[Diagnostic]:
+def _twice(by_drone: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> list[Diagnostic]:
     """Report files that are the same part of one drone's flight."""
     faults = []
-    for drone, files in found.items():
+    for drone, files in by_drone.items():
         parts = [part for part, _ in files]
         again = [names[i] for part, i in files if parts.count(part) > 1]
         if again:
@@ -115,7 +115,7 @@ def named(
     pads = {name: pad for f in mission.fleets for name, pad in zip(drone_names(f), f.pads, strict=True)}
     pads |= {drone.name: drone.home for drone in mission.drones}
     flights = _by_pads(flights, pads)
-    found: dict[str, ClockedFlight] = {}
+    by_name: dict[str, ClockedFlight] = {}
     faults: list[Diagnostic] = []
     for flight in flights:
         if flight.name not in pads:
@@ -125,14 +125,14 @@ def named(
             )
         elif (away := _away(flight, pads[flight.name])) is not None:
             faults.append(away)
-        elif flight.name in found or flight.name in others:
+        elif flight.name in by_name or flight.name in others:
             text = f"`{flight.name}` has two flights"
             faults.append(Diagnostic(NOBODY, text, (flight.at(0.0),), help="give one flight for each drone"))
         else:
-            found[flight.name] = flight
+            by_name[flight.name] = flight
     if not faults:
-        faults += [fault for fleet in mission.fleets if (fault := _incomplete(fleet, found)) is not None]
-    return found, tuple(faults[:MOST_NAMED_DRONES])
+        faults += [fault for fleet in mission.fleets if (fault := _incomplete(fleet, by_name)) is not None]
+    return by_name, tuple(faults[:MOST_NAMED_DRONES])
 
 
 def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
@@ -161,15 +161,15 @@ def _on_its_pad(flight: ClockedFlight, pads: dict[str, Vec3]) -> ClockedFlight:
     return replace(flight, name=list(pads)[nearest]) if stands else flight
 
 
-def _incomplete(fleet: Fleet, found: dict[str, ClockedFlight]) -> Diagnostic | None:
+def _incomplete(fleet: Fleet, flights: dict[str, ClockedFlight]) -> Diagnostic | None:
     """Report a fleet of which only some drones have a flight."""
-    missing = [name for name in drone_names(fleet) if name not in found]
+    missing = [name for name in drone_names(fleet) if name not in flights]
     if not missing or len(missing) == len(fleet.pads):
         return None
     count = len(fleet.pads) - len(missing)
     some = ", ".join(f"`{name}`" for name in missing[:MOST_NAMED_DRONES])
     more = f" and {len(missing) - MOST_NAMED_DRONES} more" if len(missing) > MOST_NAMED_DRONES else ""
-    file = next(flight.file for name, flight in found.items() if name in drone_names(fleet))
+    file = next(flight.file for name, flight in flights.items() if name in drone_names(fleet))
     return Diagnostic(
         NOBODY,
         f"the files have {count} flights of fleet `{fleet.name}`, which has {len(fleet.pads)} drones",

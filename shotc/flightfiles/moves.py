@@ -94,9 +94,9 @@ def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPat
         ("acceleration", limits.acceleration, "m/s^2", _acceleration),
         ("jerk", limits.jerk, "m/s^3", _jerk),
     ):
-        found = [(each, i) for i, flight in enumerate(flights) if (each := of(flight)) is not None]
-        if found:
-            (value, time, leeway), owner = max(found, key=lambda one: one[0][0] - one[0][2])
+        extremes = [(each, i) for i, flight in enumerate(flights) if (each := of(flight)) is not None]
+        if extremes:
+            (value, time, leeway), owner = max(extremes, key=lambda one: one[0][0] - one[0][2])
             limit = Limit(name, most, unit, (*path, "limits", name))
             yield LimitFinding(limit, WorstValue(value, time, "bounded"), leeway, owner)
 
@@ -115,9 +115,9 @@ def _acceleration(flight: ClockedFlight) -> Peak | None:
     if rows.velocity is None:
         return None
     peak = _mean(rows.velocity, rows.time, _rounding(rows, "vx_m_s", "vy_m_s", "vz_m_s"))
-    told = rows.values(*ACCELERATION)
-    if told is not None:
-        size = norm(told)
+    measured = rows.values(*ACCELERATION)
+    if measured is not None:
+        size = norm(measured)
         own = _peak(size, rows.time, np.zeros(len(size)))
         peak = own if peak is None or own[0] > peak[0] else peak
     return peak
@@ -125,10 +125,10 @@ def _acceleration(flight: ClockedFlight) -> Peak | None:
 
 def _jerk(flight: ClockedFlight) -> Peak | None:
     rows = flight.rows
-    told = None if rows is None else rows.values(*ACCELERATION)
-    if rows is None or told is None:
+    measured = None if rows is None else rows.values(*ACCELERATION)
+    if rows is None or measured is None:
         return None
-    return _mean(told, rows.time, _rounding(rows, *ACCELERATION))
+    return _mean(measured, rows.time, _rounding(rows, *ACCELERATION))
 
 
 def _rounding(rows: DroneRows, *columns: str) -> float:

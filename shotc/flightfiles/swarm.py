@@ -110,7 +110,7 @@ def when(flight: ClockedFlight, time: float) -> tuple[str, ...]:
     return (f"at t = {time:.3f} s", *element)
 
 
-def _told(swarm: Swarm, limit: Limit, bound: ProvedExtreme, owner: int) -> FileClaim:
+def _file_claim(swarm: Swarm, limit: Limit, bound: ProvedExtreme, owner: int) -> FileClaim:
     flight = swarm.flights[owner]
     x, y, z = flight.curve(bound.at).tolist()
     claim = held(
@@ -130,11 +130,11 @@ def _pads(swarm: Swarm) -> Iterator[FileClaim]:
     worst = int(np.argmax(away))
     time, _, k = ends[worst]
     home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
-    yield _told(swarm, home, ProvedExtreme(away[worst], away[worst], time), k)
+    yield _file_claim(swarm, home, ProvedExtreme(away[worst], away[worst], time), k)
     airborne = np.array([down - up for up, down in map(_moving, swarm.flights)])
     k = int(np.argmax(airborne))
     endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))
-    yield _told(
+    yield _file_claim(
         swarm, endurance, ProvedExtreme(float(airborne[k]), float(airborne[k]), swarm.flights[k].curve.end), k
     )
 
@@ -193,12 +193,14 @@ def _ground(swarm: Swarm) -> Iterator[FileClaim]:
     if len(free.pieces):
         low = inf_channel(free.pieces, 2, gap(rules.ground_clearance + radius))
         owner = who(free, low.at, lambda p: p[:, 2], upper=False)
-        yield _told(swarm, _clearance(rules), less(low, radius), owner)
+        yield _file_claim(swarm, _clearance(rules), less(low, radius), owner)
     most = rules.max_height
     if most is not None and isfinite(most):
         high = sup_channel(swarm.whole.pieces, 2, gap(most))
         owner = who(swarm.whole, high.at, lambda p: p[:, 2], upper=True)
-        yield _told(swarm, Limit("height above ground", most, "m", ("rules", "max_height")), high, owner)
+        yield _file_claim(
+            swarm, Limit("height above ground", most, "m", ("rules", "max_height")), high, owner
+        )
 
 
 def _clearance(rules: Rules) -> Limit:
@@ -212,22 +214,26 @@ def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[FileClaim]:
     def above(p: Array) -> Array:
         return p[:, 2] - height_at(ground, p[:, :2])
 
-    def told(limit: Limit, found: SurfaceBound | NoGround, bag: FlightPieces, by: float) -> FileClaim:
-        if isinstance(found, SurfaceBound):
-            return _told(swarm, limit, less(found, by), int(bag.owner[found.piece]))
+    def file_claim(limit: Limit, bound: SurfaceBound | NoGround, bag: FlightPieces, by: float) -> FileClaim:
+        if isinstance(bound, SurfaceBound):
+            return _file_claim(swarm, limit, less(bound, by), int(bag.owner[bound.piece]))
         never = inf if limit.upper else -inf
-        outside = who(bag, found.at, lambda p: np.nan_to_num(above(p), nan=never), upper=limit.upper)
-        return _told(swarm, limit, ProvedExtreme(never, never, found.at), outside)
+        outside = who(bag, bound.at, lambda p: np.nan_to_num(above(p), nan=never), upper=limit.upper)
+        return _file_claim(swarm, limit, ProvedExtreme(never, never, bound.at), outside)
 
     if len(free.pieces):
         low = inf_height(free.pieces, ground, gap(rules.ground_clearance + radius))
-        yield told(_clearance(rules), low, free, radius)
+        yield file_claim(_clearance(rules), low, free, radius)
         near = surface_distance(free.pieces, ground.surface, gap(radius))
-        yield told(Limit("distance from terrain", 0.0, "m", terrain.path, upper=False), near, free, radius)
+        yield file_claim(
+            Limit("distance from terrain", 0.0, "m", terrain.path, upper=False), near, free, radius
+        )
     most = rules.max_height
     if most is not None and isfinite(most) and len(swarm.whole.pieces):
         high = sup_height(swarm.whole.pieces, ground, gap(most))
-        yield told(Limit("height above ground", most, "m", ("rules", "max_height")), high, swarm.whole, 0.0)
+        yield file_claim(
+            Limit("height above ground", most, "m", ("rules", "max_height")), high, swarm.whole, 0.0
+        )
 
 
 def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[FileClaim]:
@@ -241,16 +247,16 @@ def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[FileClaim]:
             continue
         worst, owner = ProvedExtreme(inf, inf, 0.0), 0
         for k in np.unique(bag.owner):
-            room = min(body, float(abs(pads[k]))) if at_home else body
-            found = surface_distance(bag.pieces.pick(bag.owner == k), mesh.surface, gap(room + least))
+            allowance = min(body, float(abs(pads[k]))) if at_home else body
+            bound = surface_distance(bag.pieces.pick(bag.owner == k), mesh.surface, gap(allowance + least))
             lack = less(
-                ProvedExtreme(-found.attained, -found.attained, found.at) if pads[k] < 0 else found, room
+                ProvedExtreme(-bound.attained, -bound.attained, bound.at) if pads[k] < 0 else bound, allowance
             )
             if lack.proven < worst.proven:
                 worst, owner = lack, int(k)
         limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
         own = Limit(f"{name} at home", 0.0, "m", mesh.path, upper=False)
-        yield _told(swarm, own if at_home else limit, worst, owner)
+        yield _file_claim(swarm, own if at_home else limit, worst, owner)
 
 
 def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
@@ -258,7 +264,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     away: Callable[[Array], Array] = lambda p: signed_distance(solid, p)  # noqa: E731
     if len(free.pieces):
         bound = nearest(free.pieces, solid, gap(radius + limit.value))
-        yield _told(swarm, limit, less(bound, radius), who(free, bound.at, away, upper=False))
+        yield _file_claim(swarm, limit, less(bound, radius), who(free, bound.at, away, upper=False))
     upright = swarm.upright
     if not len(upright.pieces):
         return
@@ -279,7 +285,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
         if bound.proven < worst.proven:
             worst, owner = bound, int(k)
     own = Limit(f"{limit.constraint} at home", 0.0, "m", limit.path, upper=False)
-    yield _told(swarm, own, worst, owner)
+    yield _file_claim(swarm, own, worst, owner)
 
 
 def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> FileClaim:
@@ -292,7 +298,7 @@ def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> FileClaim:
                 worst = bound
                 owner = who(bag, bound.at, lambda p, s=within: -signed_distance(s, p), upper=False)
     margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)
-    return _told(swarm, limit, less(margin, swarm.fleet.radius), owner)
+    return _file_claim(swarm, limit, less(margin, swarm.fleet.radius), owner)
 
 
 def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> FileClaim:
@@ -306,7 +312,7 @@ def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> FileClaim:
             bound = inf_distance(cut(seen, up, down), target.kept_clear, gap(radius + limit.value))
             if bound.proven < worst.proven:
                 worst, owner = bound, k
-    return _told(swarm, limit, less(worst, radius), owner)
+    return _file_claim(swarm, limit, less(worst, radius), owner)
 
 
 def _separation(swarm: Swarm) -> Iterator[FileClaim]:
@@ -323,15 +329,15 @@ def _separation(swarm: Swarm) -> Iterator[FileClaim]:
 
 def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> Iterator[FileClaim]:
     fleet = swarm.fleet
-    found = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
-    if not isfinite(found.proven):
+    closest = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
+    if not isfinite(closest.proven):
         return  # no two drones are in the air at once
     own = (*fleet.path, "separation")
     origins = swarm.mission.origins
     path: KeyPath = own if own in origins.keys or own in origins.values else ("rules", "separation")
     limit = Limit(name, apart.across, "m", path, upper=False)
-    pair = (swarm.flights[found.first], swarm.flights[found.second])
-    worst = WorstValue(found.proven, found.time, "bounded", found.position)
+    pair = (swarm.flights[closest.first], swarm.flights[closest.second])
+    worst = WorstValue(closest.proven, closest.time, "bounded", closest.position)
     claim: Claim = held(fleet.name, limit, worst, (pair[0].name, pair[1].name))
     leeway = sum(flight.leeway.place for flight in pair)
-    yield FileClaim(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))
+    yield FileClaim(to_tolerance(claim, {"m": leeway}), pair[0].at(closest.time), when(pair[0], closest.time))

@@ -49,22 +49,22 @@ lack : by how much the limit is missed
 """
 
 
-def told(mission: MissionIR, found: Sequence[FileClaim]) -> Iterator[Diagnostic]:
+def diagnostics(mission: MissionIR, claims: Sequence[FileClaim]) -> Iterator[Diagnostic]:
     """Yield an error for every broken claim."""
-    certificate = tuple(each.claim for each in found)
-    for each in found:
+    certificate = tuple(each.claim for each in claims)
+    for each in claims:
         if not each.claim.holds and each.claim.hard:
             yield _broken(mission, each, certificate)
 
 
-def _broken(mission: MissionIR, found: FileClaim, certificate: tuple[Claim, ...]) -> Diagnostic:
-    claim = found.claim
+def _broken(mission: MissionIR, broken: FileClaim, certificate: tuple[Claim, ...]) -> Diagnostic:
+    claim = broken.claim
     seen = claim.constraint.endswith(OUT_OF_PICTURE)
     code = SEEN if seen else rule_of(claim.constraint, mission).code
     limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = [limit_label(mission, claim, limit)]
-    if found.where is not None:
-        labels.insert(0, found.where)
+    if broken.where is not None:
+        labels.insert(0, broken.where)
     if code in PROMISES and claim.shot is not None:
         message = broken_promise(claim, code)
         help_ = promise_help(claim, code, mission.shot(claim.shot), certificate)
@@ -72,17 +72,17 @@ def _broken(mission: MissionIR, found: FileClaim, certificate: tuple[Claim, ...]
         lack = measure(abs(claim.worst - claim.limit), claim.unit)
         message = f"{_who(claim)}: {state_of(claim, code)}"
         help_ = HELPS.get(code, "mend the file, or the mission").format(lack=lack)
-    return Diagnostic(code, message, tuple(labels), tuple(_notes(claim, found)), help_)
+    return Diagnostic(code, message, tuple(labels), tuple(_notes(claim, broken)), help_)
 
 
 def _who(claim: Claim) -> str:
     return claim.subject if not claim.drones else f"{' and '.join(claim.drones)} of {claim.subject}"
 
 
-def _notes(claim: Claim, found: FileClaim) -> Iterator[str]:
+def _notes(claim: Claim, file_claim: FileClaim) -> Iterator[str]:
     if claim.position is not None:
         yield "worst at ({:.2f}, {:.2f}, {:.2f}) m".format(*claim.position)
-    yield from found.notes
+    yield from file_claim.notes
     if claim.method == "bounded":
         yield "proved between the file's places, too"
 
@@ -91,7 +91,7 @@ def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
     """Yield notes on how each waypoint flight was rebuilt, and what is not judged."""
     for course in courses:
         name, files = course.drone.name, ", ".join(f"`{file}`" for file in course.files)
-        ways = [way for way, _ in course.ways]
+        ways = [curve_name for curve_name, _ in course.ways]
         curves = (
             ""
             if len(ways) == 1

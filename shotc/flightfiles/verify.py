@@ -69,10 +69,10 @@ def verify_flights(
     drones : the drone of each file, or empty; see ``owners``
     """
     reads = [read(file.data, Path(file.name).as_posix()) for file in files]
-    asked = lower_for_flights(*against, partial(_filmed, reads))
-    sources = {against.name: asked.file}
-    if asked.keyframes is None:
-        return FlightsReport(False, (), asked.diagnostics, sources)
+    lowered = lower_for_flights(*against, partial(_filmed, reads))
+    sources = {against.name: lowered.file}
+    if lowered.keyframes is None:
+        return FlightsReport(False, (), lowered.diagnostics, sources)
     sources |= {each.file: SourceFile(each.file, each.text) for each in reads}
     faults = [_refused(each.file, each.found) for each in reads if isinstance(each.found, Refused)]
     if drones and len(drones) != len(files):
@@ -80,7 +80,7 @@ def verify_flights(
         faults.append(Diagnostic(NOBODY, text, help="give `--drone` once for every file, in their order"))
     if faults:
         return FlightsReport(False, (), tuple(faults), sources)
-    return _with_members(_owned(asked.keyframes, reads, drones, sources), reads)
+    return _with_members(_owned(lowered.keyframes, reads, drones, sources), reads)
 
 
 def _filmed(reads: Sequence[Read]) -> dict[str, str]:
@@ -131,23 +131,23 @@ def _owned(
             faults = (*faults, made_of)
         else:
             flights += made_of
-    found, unfit = named(mission, flights, {own.drone.name for own in owned})
+    clocked, unfit = named(mission, flights, {own.drone.name for own in owned})
     if faults or unfit:
         return FlightsReport(False, (), (*faults, *unfit), sources)
-    return _proved(keyframes, courses, found, sources)
+    return _proved(keyframes, courses, clocked, sources)
 
 
-def _clocked(mission: MissionIR, each: Read, told: str) -> list[ClockedFlight] | Diagnostic:
+def _clocked(mission: MissionIR, each: Read, chosen: str) -> list[ClockedFlight] | Diagnostic:
     """Return the flights with a clock in a file.
 
-    told : name of its drone by the user's options, or ""
+    chosen : name of its drone by the user's options, or ""
     """
     if isinstance(each.found, SkycShow):
         return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
     if not isinstance(each.found, tuple) or isinstance(each.found, Waypoints | Refused):
         return []
-    if len(each.found) == 1 and (told or not each.found[0].drone):
-        owned, faults = owners(mission, [each.file], [told] if told else ())
+    if len(each.found) == 1 and (chosen or not each.found[0].drone):
+        owned, faults = owners(mission, [each.file], [chosen] if chosen else ())
         if faults:
             return faults[0]
         names = [owned[0].drone.name]
@@ -168,15 +168,15 @@ def _clocked(mission: MissionIR, each: Read, told: str) -> list[ClockedFlight] |
 def _proved(
     keyframes: KeyframeIR,
     courses: Sequence[UntimedFlight],
-    found: dict[str, ClockedFlight],
+    flights: dict[str, ClockedFlight],
     sources: dict[str, SourceFile],
 ) -> FlightsReport:
     mission = keyframes.mission
     swarms = [
-        Swarm.of(mission, fleet, tuple(found[name] for name in drone_names(fleet)))
-        for fleet in whole_fleets(f for f in mission.fleets if drone_names(f)[0] in found)
+        Swarm.of(mission, fleet, tuple(flights[name] for name in drone_names(fleet)))
+        for fleet in whole_fleets(f for f in mission.fleets if drone_names(f)[0] in flights)
     ]
-    films = [found[drone.name] for drone in mission.drones if drone.name in found]
+    films = [flights[drone.name] for drone in mission.drones if drone.name in flights]
     try:
         tracks = [_aligned(keyframes, flown) for flown in films]
         beside = _beside_pads(keyframes, swarms)
@@ -188,13 +188,13 @@ def _proved(
     for swarm in swarms:
         claims += swarm_judged(swarm)
     claims += _between(mission, courses, films, swarms)
-    diagnostics = tuple(tell.told(mission, claims))
+    diagnostics = tuple(tell.diagnostics(mission, claims))
     notes = (
         *tell.models(courses),
         *tell.rebuilt(films, swarms),
         *tell.unjudged(mission, courses, swarms),
         *(f"not judged: {what}" for each in tracks for what in film.unkept(keyframes, each, claims)),
-        *_others(mission, {*(course.drone.name for course in courses), *found}),
+        *_others(mission, {*(course.drone.name for course in courses), *flights}),
     )
     certificate = tuple(each.claim for each in claims)
     return FlightsReport(not has_errors(diagnostics), certificate, diagnostics, sources, notes)

@@ -150,12 +150,12 @@ def point_margins(camera: View, offset: Offset, shape: VisibleShape) -> FrustumM
     x, y, z = offset
     level = (x * x + y * y + 1e-18) ** 0.5
     radius, height = shape.half_width((-y / level, x / level)), shape.height
-    aside = (-y / level * radius, x / level * radius)
+    sideways = (-y / level * radius, x / level * radius)
     points = (
         (x, y, z + height / 2),
         (x, y, z - height / 2),
-        (x + aside[0], y + aside[1], z),
-        (x - aside[0], y - aside[1], z),
+        (x + sideways[0], y + sideways[1], z),
+        (x - sideways[0], y - sideways[1], z),
     )
     a, b, c, d = (frustum_margins(camera, point) for point in points)
 
@@ -184,11 +184,11 @@ def aim_at(offset: Vec3, uv: Vec2, hfov: float, aspect: float, yaw_if_vertical: 
         return None
     # Up component of the ray after pitching: up cos(p) + forward sin(p) = offset_z / length.
     reach = hypot(up, forward)
-    wanted = offset[2] / length
-    if abs(wanted) > reach:
+    sine = offset[2] / length
+    if abs(sine) > reach:
         return None
     lean = atan2(up, forward)
-    rise = atan2(wanted, sqrt(max(0.0, reach**2 - wanted**2)))
+    rise = atan2(sine, sqrt(max(0.0, reach**2 - sine**2)))
     pitch = min((rise - lean, pi - rise - lean), key=lambda p: abs(direction(p)))
     pitch = direction(pitch)
     along = forward * cos(pitch) - up * sin(pitch)

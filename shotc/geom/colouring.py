@@ -23,9 +23,9 @@ def coloured(places: Sequence[Vec2], least: float) -> tuple[int, ...]:
     colours = _smallest_last(around)
     fewest = max(colours, default=0) + 1
     regular = _on_lattice(places, least, fewest)
-    found = colours if regular is None else regular
-    names = {colour: k for k, colour in enumerate(sorted(set(found)))}
-    return tuple(names[colour] for colour in found)
+    chosen = colours if regular is None else regular
+    names = {colour: k for k, colour in enumerate(sorted(set(chosen)))}
+    return tuple(names[colour] for colour in chosen)
 
 
 def fewest_colours(places: Sequence[Vec2], least: float) -> int:
@@ -121,9 +121,9 @@ def _grid(places: Sequence[Vec2]) -> tuple[float, list[tuple[int, int]]] | None:
     ux, uy = (x1 - x0) / spacing, (y1 - y0) / spacing
     steps: list[tuple[int, int]] = []
     for x, y in places:
-        along, aside = (x - x0) * ux + (y - y0) * uy, (y - y0) * ux - (x - x0) * uy
-        i, j = round(along / spacing), round(aside / spacing)
-        if hypot(along - i * spacing, aside - j * spacing) > ROUNDING_M:
+        along, across = (x - x0) * ux + (y - y0) * uy, (y - y0) * ux - (x - x0) * uy
+        i, j = round(along / spacing), round(across / spacing)
+        if hypot(along - i * spacing, across - j * spacing) > ROUNDING_M:
             return None
         steps.append((i, j))
     return (spacing, steps) if len(set(steps)) == len(steps) else None

@@ -25,16 +25,16 @@ def minimum_jerk(x: _Share) -> _Share:
     return x**3 * (10.0 + x * (6.0 * x - 15.0))
 
 
-def parts_of(room: float) -> int | None:
+def parts_of(speed_ratio: float) -> int | None:
     """Return the number n of equal time parts of a step that keeps a speed limit; None if it cannot.
 
-    room : the limit over the mean speed of the step
+    speed_ratio : the limit over the mean speed of the step
     The speed rises in the first part, falls in the last, and is constant between: n / (n - 1) of the mean.
     One part means the minimum-jerk step.
     """
-    if room >= PEAK_SPEED_RATIO:
+    if speed_ratio >= PEAK_SPEED_RATIO:
         return 1
-    parts = ceil(room / (room - 1.0)) if room > 1.0 else inf
+    parts = ceil(speed_ratio / (speed_ratio - 1.0)) if speed_ratio > 1.0 else inf
     return int(parts) if parts <= MOST_PARTS else None
 
 

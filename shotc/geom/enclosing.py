@@ -83,7 +83,7 @@ def bodies_about(blocks: Sequence[UprightPrism], most: int) -> tuple[EnclosingSh
     """Return at most ``most`` bodies that together contain all prisms; there is at least one prism."""
     course = _base(tuple(p for block in blocks for p in block.ring)).ahead
     pieces = [b._replace(ring=ring) for b in blocks for ring in _cut(b.ring, MOST_PIECES)]
-    return tuple(_body(found.blocks) for found in _few([_aligned((p,), course) for p in pieces], most))
+    return tuple(_body(body.blocks) for body in _few([_aligned((p,), course) for p in pieces], most))
 
 
 def _base(points: Ring) -> _Base:
@@ -91,9 +91,9 @@ def _base(points: Ring) -> _Base:
     hull = convex_hull(points)
     turns = [atan2(b[1] - a[1], b[0] - a[0]) for a, b in edges(hull)]
     boxes = [_rectangle(hull, turn) for turn in turns[:: max(1, len(turns) // MOST_TURNS)]]
-    box = min(boxes, key=lambda found: found.area)
+    box = min(boxes, key=lambda body: body.area)
     round_ = box._replace(radius=max(hypot(x - box.middle[0], y - box.middle[1]) for x, y in hull))
-    return min(box, round_, key=lambda found: found.area)
+    return min(box, round_, key=lambda body: body.area)
 
 
 def _rectangle(hull: Ring, turn: float) -> _Base:
@@ -167,28 +167,28 @@ def _aligned(blocks: tuple[UprightPrism, ...], course: Vec2) -> _Aligned:
     return _Aligned(blocks, (a, c, low), (b, d, high))
 
 
-def _few(found: list[_Aligned], most: int) -> list[_Aligned]:
+def _few(bodies: list[_Aligned], most: int) -> list[_Aligned]:
     """Join the smallest body with the one that grows least, until there are few.
 
     Then join those of one box.
     """
-    while len(found) > most:
-        smallest = min(range(len(found)), key=lambda i: found[i].volume)
-        one = found.pop(smallest)
-        other = min(range(len(found)), key=lambda i: _joined(one, found[i]).volume - found[i].volume)
-        found[other] = _joined(one, found[other])
-    while pair := next(_one_box(found), None):
+    while len(bodies) > most:
+        smallest = min(range(len(bodies)), key=lambda i: bodies[i].volume)
+        one = bodies.pop(smallest)
+        other = min(range(len(bodies)), key=lambda i: _joined(one, bodies[i]).volume - bodies[i].volume)
+        bodies[other] = _joined(one, bodies[other])
+    while pair := next(_one_box(bodies), None):
         i, j = pair
-        found[i] = _joined(found[i], found.pop(j))
-    return found
+        bodies[i] = _joined(bodies[i], bodies.pop(j))
+    return bodies
 
 
-def _one_box(found: list[_Aligned]) -> Iterator[tuple[int, int]]:
+def _one_box(bodies: list[_Aligned]) -> Iterator[tuple[int, int]]:
     """Yield pairs, the lower index first, whose common box is hardly larger than they are."""
-    for j in range(len(found)):
+    for j in range(len(bodies)):
         for i in range(j):
-            both = found[i].volume + found[j].volume - _common(found[i], found[j])
-            if _joined(found[i], found[j]).volume <= SAME_VOLUME_RATIO * both:
+            both = bodies[i].volume + bodies[j].volume - _common(bodies[i], bodies[j])
+            if _joined(bodies[i], bodies[j]).volume <= SAME_VOLUME_RATIO * both:
                 yield i, j
 
 

@@ -157,8 +157,8 @@ def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
 
 def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
     """Search the nearest pair at the ends of slabs, and one pair whose flights both count at some time."""
-    begins = np.argsort(slabs.spans[:, 0], kind="stable")
-    for one, other in pairwise(begins.tolist()):
+    by_start = np.argsort(slabs.spans[:, 0], kind="stable")
+    for one, other in pairwise(by_start.tolist()):
         begin = float(np.clip(slabs.spans[other, 0], slabs.ends[0], slabs.ends[-1]))
         if first is None and slabs.spans[one, 1] >= begin:
             near = slabs.cut[one](begin) - slabs.cut[other](begin)
@@ -183,7 +183,7 @@ def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
 
 def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[Index, Index]:
     """Return pairs and slabs that may be nearer than the least distance so far, nearest first."""
-    found, where = [np.zeros((0, 2), dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+    near_pairs, where = [np.zeros((0, 2), dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
     bound = search.best * _ball(search)
     for k in range(len(slabs.ends) - 1):
         centre, radius = slabs.centre[:, k], slabs.radius[:, k]
@@ -201,8 +201,8 @@ def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[
         index = np.full(len(pairs), k, dtype=np.intp)
         # A standing pair at an attained distance is no nearer.
         near_enough = slabs.apart(pairs, index) < bound - search.gap()
-        found.append(pairs[near_enough])
+        near_pairs.append(pairs[near_enough])
         where.append(index[near_enough])
-    pairs, index = np.concatenate(found), np.concatenate(where)
+    pairs, index = np.concatenate(near_pairs), np.concatenate(where)
     order = np.argsort(slabs.apart(pairs, index), kind="stable")
     return pairs[order], index[order]

@@ -88,8 +88,8 @@ def first_nearer(
     marks : ends of the intervals, rising, shape (M,), seconds
     """
     one, other = _Fleet.of(*flown, apart), _Fleet.of(*beside, apart)
-    found = (_Search(one, other, apart, span).run() for span in pairwise(marks.tolist()))
-    return next((nearest for nearest in found if nearest.proven < least), None)
+    results = (_Search(one, other, apart, span).run() for span in pairwise(marks.tolist()))
+    return next((nearest for nearest in results if nearest.proven < least), None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -100,8 +100,8 @@ class BoxShape(NamedTuple):
     def half_width(self, across: tuple[S, S]) -> S:
         """Return its extent along a horizontal unit vector of W, metres."""
         c, s = self.ahead
-        along, aside = across[0] * c + across[1] * s, across[1] * c - across[0] * s
-        return self.length / 2 * abs(along) + self.width / 2 * abs(aside)
+        along, lateral = across[0] * c + across[1] * s, across[1] * c - across[0] * s
+        return self.length / 2 * abs(along) + self.width / 2 * abs(lateral)
 
     def nearest_depth(self, camera: View, offset: Offset) -> S:
         """Return the depth of its point nearest to the image plane, metres."""
@@ -226,8 +226,8 @@ def _level_touch(a: BodyShape, b: BodyShape, offset: tuple[S, S]) -> S:
     c, s = a.ahead
     if isinstance(b, CylinderShape):
         along = _positive(abs(x * c + y * s) - a.length / 2)
-        aside = _positive(abs(y * c - x * s) - a.width / 2)
-        return along * along + aside * aside <= (b.radius + TOUCH_M) ** 2
+        lateral = _positive(abs(y * c - x * s) - a.width / 2)
+        return along * along + lateral * lateral <= (b.radius + TOUCH_M) ** 2
     # Two rectangles meet unless an axis along a side separates them.
     meets: S = True
     for p, q in (a.ahead, b.ahead):

@@ -30,10 +30,10 @@ def outside(cameras: Cameras, places: Array, radius: float) -> Array:
 def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:
     """Return the angle between the optical axis and the nearest point of each ball, rad, shape (M,)."""
     right, down, forward = cameras.view.to_camera(_away(cameras, places))
-    aside = np.hypot(right, down)
-    far = np.hypot(aside, forward)
+    radial = np.hypot(right, down)
+    far = np.hypot(radial, forward)
     half = np.arcsin(radius / np.maximum(far, radius)) if radius > 0 else np.zeros_like(far)
-    return np.where(far > radius, np.arctan2(aside, forward) - half, WITHIN_RAD)
+    return np.where(far > radius, np.arctan2(radial, forward) - half, WITHIN_RAD)
 
 
 def _away(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:

@@ -104,13 +104,13 @@ def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
         return beyond[axis] == side
 
     def neighbours(a: tuple[int, ...]) -> list[tuple[int, ...]]:
-        found = []
+        adjacent = []
         for axis in range(3):
             b = tuple(-x if i == axis else x for i, x in enumerate(a))
             first, second = (i for i in range(3) if i != axis)
             if faces(first, a[first]) != faces(second, a[second]):
-                found.append(b)
-        return found
+                adjacent.append(b)
+        return adjacent
 
     first = next(corner for corner in corners if neighbours(corner))
     loop = [first]

@@ -88,8 +88,8 @@ class Track(NamedTuple):
             return hypot(*self.after)
         if t < self.times[0]:
             return 0.0
-        way = hypot(*(b - a for a, b in zip(self.points[i], self.points[i + 1], strict=True)))
-        return way / (self.times[i + 1] - self.times[i])
+        distance = hypot(*(b - a for a, b in zip(self.points[i], self.points[i + 1], strict=True)))
+        return distance / (self.times[i + 1] - self.times[i])
 
     def beginning(self, start: float) -> Self:
         """Return the same motion with its first row at a time, seconds."""

@@ -102,72 +102,72 @@ def direction(azimuth: float, elevation: float) -> Vec3:
     return (level * sin(azimuth), level * cos(azimuth), sin(elevation))
 
 
-def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
+def size_from(subject: Wanted, lens: Lens, offset: Vec3) -> float:
     """Return the size of a subject at its place on screen, seen from ``offset`` from its centre, metres.
 
     It is infinite if the subject extends behind the image plane, NaN if no camera shows it at that place.
     """
     back = (-offset[0], -offset[1], -offset[2])
-    aim = aim_at(back, wanted.uv or (0.0, 0.0), lens.hfov, lens.aspect)
+    aim = aim_at(back, subject.uv or (0.0, 0.0), lens.hfov, lens.aspect)
     if aim is None:
         return float("nan")
     camera = view(*aim, lens.hfov, lens.aspect)
-    if wanted.shape.nearest_depth(camera, back) <= 0:
+    if subject.shape.nearest_depth(camera, back) <= 0:
         return inf
-    _, _, low, high = wanted.shape.bounds(camera, back)
+    _, _, low, high = subject.shape.bounds(camera, back)
     return float(0.5 * (high - low))
 
 
-def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
+def nearest(subject: Wanted, toward: Vec3, near: float) -> float:
     """Return the least distance along a unit vector from a subject's centre with clearance ``near``."""
-    low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
+    low, high = 0.0, subject.shape.radius + subject.shape.height + near + 1.0
     for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
-        closer = wanted.shape.gap(_times(toward, middle)) < near
+        closer = subject.shape.gap(_times(toward, middle)) < near
         low, high = (middle, high) if closer else (low, middle)
     return high
 
 
-def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
+def distance_for(subject: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
     """Return the distance along a unit vector from which a subject has a size; 0 if it is always smaller."""
     low, high = 1e-3, FAR_M
     for _ in range(MOST_HALVINGS + 20):
         middle = sqrt(low * high)
-        if size_from(wanted, lens, _times(toward, middle)) > size:
+        if size_from(subject, lens, _times(toward, middle)) > size:
             low = middle
         else:
             high = middle
     return high if high > 1.01e-3 else 0.0
 
 
-def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
+def lens_for(subject: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
     """Return the horizontal field of view, rad, that gives a subject its size from a place, or None."""
     low, high = 0.02, 2.8
-    sized = [size_from(wanted, lens._replace(hfov=h), offset) for h in (low, high)]
+    sized = [size_from(subject, lens._replace(hfov=h), offset) for h in (low, high)]
     if not sized[1] <= size <= sized[0]:
         return None
     for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
-        if size_from(wanted, lens._replace(hfov=middle), offset) > size:
+        if size_from(subject, lens._replace(hfov=middle), offset) > size:
             low = middle
         else:
             high = middle
     return high
 
 
-def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: float) -> Vec3:
+def stand(subject: Wanted, lens: Lens, bounds: PlaceBounds, azimuth: float, size: float) -> Vec3:
     """Return the camera's offset from a subject for a bearing, rad, and a size.
 
-    A free elevation is level, or as little above as the floor of ``room`` needs.
+    A free elevation is level, or as little above as the floor of ``bounds`` needs.
     """
 
     def at(elevation: float) -> Vec3:
         toward = direction(azimuth, elevation)
-        return _times(toward, distance_for(wanted, lens, toward, size))
+        return _times(toward, distance_for(subject, lens, toward, size))
 
-    if wanted.elevation is not None:
-        return at(wanted.elevation)
-    lift = room.floor - wanted.centre[2]
+    if subject.elevation is not None:
+        return at(subject.elevation)
+    lift = bounds.floor - subject.centre[2]
     offset = at(0.0)
     if offset[2] >= lift:
         return offset
@@ -181,25 +181,25 @@ def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: f
     return at(high)
 
 
-def judged(pose: Pose, lens: Lens, wanted: Wanted) -> SubjectAppearance | None:
+def judged(pose: Pose, lens: Lens, subject: Wanted) -> SubjectAppearance | None:
     """Return the appearance of a subject from a pose; None if it extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
-    offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
-    if wanted.shape.nearest_depth(camera, offset) <= 0:
+    offset = minus(subject.centre, (pose[0], pose[1], pose[2]))
+    if subject.shape.nearest_depth(camera, offset) <= 0:
         return None
-    left, right, low, high = wanted.shape.bounds(camera, offset)
+    left, right, low, high = subject.shape.bounds(camera, offset)
     u, v, _ = camera.project(offset)
-    screen = 0.0 if wanted.uv is None else hypot(u - wanted.uv[0], v - wanted.uv[1])
-    chord = hypot(*_off_view(wanted, offset))
-    out = max(0.0, -left - 1.0, right - 1.0, -low - 1.0, high - 1.0) if wanted.whole else 0.0
+    screen = 0.0 if subject.uv is None else hypot(u - subject.uv[0], v - subject.uv[1])
+    chord = hypot(*_off_view(subject, offset))
+    out = max(0.0, -left - 1.0, right - 1.0, -low - 1.0, high - 1.0) if subject.whole else 0.0
     return SubjectAppearance(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
 
 
-def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:
+def whole(pose: Pose, lens: Lens, subject: Wanted) -> bool:
     """Return whether all of a subject is in the frame."""
-    offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
+    offset = minus(subject.centre, (pose[0], pose[1], pose[2]))
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
-    return bool(min(frustum_margins(camera, offset, wanted.shape)) >= 0.0)
+    return bool(min(frustum_margins(camera, offset, subject.shape)) >= 0.0)
 
 
 def middle_of(subjects: Sequence[Wanted]) -> Vec3:
@@ -208,45 +208,45 @@ def middle_of(subjects: Sequence[Wanted]) -> Vec3:
     return (x, y, z)
 
 
-def first_pose(subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, azimuth: float) -> Pose:
+def first_pose(subjects: Sequence[Wanted], lens: Lens, bounds: PlaceBounds, azimuth: float) -> Pose:
     """Return a pose with all subjects in front of the camera, at a bearing from their middle, rad."""
     middle = middle_of(subjects)
     spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
     half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
-    away = spread * (1.0 + 1.0 / half) + room.near
+    away = spread * (1.0 + 1.0 / half) + bounds.near
     level = direction(azimuth, 0.0)
-    eye = (middle[0] + away * level[0], middle[1] + away * level[1], max(middle[2], room.floor))
+    eye = (middle[0] + away * level[0], middle[1] + away * level[1], max(middle[2], bounds.floor))
     x, y, z = minus(middle, eye)
     return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
 
 
 @lru_cache(maxsize=4096)  # several passes solve the same framing, and standing subjects repeat
 def viewpoint(
-    subjects: tuple[Wanted, ...], lens: Lens, room: PlaceBounds, start: Pose, since: Since | None = None
+    subjects: tuple[Wanted, ...], lens: Lens, bounds: PlaceBounds, start: Pose, previous: Since | None = None
 ) -> tuple[Pose, float]:
     """Return the pose of least cost, from an initial guess, and its cost.
 
-    since : the camera at the knot before, or None; free values stay as there, and the step is at most its way
+    previous : the camera at the knot before, or None. Free values stay as there; the step has a limit.
     """
     reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
-        residuals = _residuals(pose, subjects, lens, room, (since, reach))
+        residuals = _residuals(pose, subjects, lens, bounds, (previous, reach))
         return residuals, inf if residuals is None else dot(residuals, residuals)
 
-    low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
+    low = (-inf, -inf, bounds.floor, -inf, lens.pitch[0])
     high = (inf, inf, inf, inf, lens.pitch[1])
     return least_cost_pose(PoseCost(cost, low, high, (reach, reach, reach, 1.0, 1.0)), start)
 
 
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, faint: tuple[Since | None, float]
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, bounds: PlaceBounds, faint: tuple[Since | None, float]
 ) -> Residuals | None:
     """Return all residuals; None if a subject extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     eye = (pose[0], pose[1], pose[2])
-    since, reach = faint
-    found: Residuals = []
+    previous, reach = faint
+    residuals: Residuals = []
     sized = any(s.size is not None for s in subjects)
     for s in subjects:
         offset = minus(s.centre, eye)
@@ -257,24 +257,24 @@ def _residuals(
         if not high > low:
             return None
         if s.uv is None:
-            found += [FAINT_WEIGHT * u, FAINT_WEIGHT * v]
+            residuals += [FAINT_WEIGHT * u, FAINT_WEIGHT * v]
         else:
-            found += [u - s.uv[0], v - s.uv[1]]
+            residuals += [u - s.uv[0], v - s.uv[1]]
         if s.size is not None:
-            found.append(log(0.5 * (high - low) / s.size))
+            residuals.append(log(0.5 * (high - low) / s.size))
         elif not sized:
-            found.append(FAINT_WEIGHT * log(0.5 * (high - low) / WHOLE_SIZE))
+            residuals.append(FAINT_WEIGHT * log(0.5 * (high - low) / WHOLE_SIZE))
         if s.whole:
-            found += [HARD_WEIGHT * max(0.0, edge - EDGE_SHARE) for edge in (-left, right, -low, high)]
-        found += _off_view(s, offset)
+            residuals += [HARD_WEIGHT * max(0.0, edge - EDGE_SHARE) for edge in (-left, right, -low, high)]
+        residuals += _off_view(s, offset)
         if s.elevation is None:
-            found.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
-        found.append(HARD_WEIGHT * max(0.0, room.near - s.shape.gap(offset)))
-    found += _off_pose(pose, room.drawn, subjects)
-    if since is not None:
-        found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
-        found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
-    return found
+            residuals.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
+        residuals.append(HARD_WEIGHT * max(0.0, bounds.near - s.shape.gap(offset)))
+    residuals += _off_pose(pose, bounds.drawn, subjects)
+    if previous is not None:
+        residuals += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, previous.kept, strict=True)]
+        residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.way))
+    return residuals
 
 
 def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted]) -> Residuals:
@@ -282,21 +282,21 @@ def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted
     if drawn is None:
         return []
     away = max(hypot(*minus(drawn.at, middle_of(subjects))), 1.0)
-    found = [NEAR_WEIGHT * (e - d) / away for e, d in zip(pose[:3], drawn.at, strict=True)]
+    residuals = [NEAR_WEIGHT * (e - d) / away for e, d in zip(pose[:3], drawn.at, strict=True)]
     if drawn.yaw is not None:
         # As in the quaternion of the difference, independent of the pitch: looking down does not reduce it.
-        found.append(NEAR_WEIGHT * 2.0 * sin(0.5 * (pose[3] - drawn.yaw)))
+        residuals.append(NEAR_WEIGHT * 2.0 * sin(0.5 * (pose[3] - drawn.yaw)))
     if drawn.pitch is not None:
-        found.append(NEAR_WEIGHT * (pose[4] - drawn.pitch))
-    return found
+        residuals.append(NEAR_WEIGHT * (pose[4] - drawn.pitch))
+    return residuals
 
 
-def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:
+def _off_view(subject: Wanted, offset: Vec3) -> Residuals:
     """Return the residuals from the required view, as chords of the unit sphere (viewpoint Eq. 9).
 
     offset : subject minus camera
     """
-    azimuth, elevation = wanted.azimuth, wanted.elevation
+    azimuth, elevation = subject.azimuth, subject.elevation
     length, level = max(hypot(*offset), 1e-9), max(hypot(offset[0], offset[1]), 1e-9)
     if azimuth is not None and elevation is not None:
         return [-c / length - a for c, a in zip(offset, direction(azimuth, elevation), strict=True)]

@@ -85,9 +85,9 @@ def _near(one: Pieces, other: Pieces, reach: float) -> _Pairs:
         centre = 0.5 * (bag.ctrl.min(axis=1) + bag.ctrl.max(axis=1))
         balls.append((centre, norm(bag.ctrl - centre[:, None]).max(axis=1)))
     (a, r), (b, s) = balls
-    found = cKDTree(b).query_ball_point(a, reach + r + s.max())
-    first = np.repeat(np.arange(len(a)), [len(each) for each in found])
-    second = np.array([j for each in found for j in each], dtype=np.intp)
+    neighbours = cKDTree(b).query_ball_point(a, reach + r + s.max())
+    first = np.repeat(np.arange(len(a)), [len(each) for each in neighbours])
+    second = np.array([j for each in neighbours for j in each], dtype=np.intp)
     near = norm(a[first] - b[second]) <= reach + r[first] + s[second]
     return first[near], second[near]
 

@@ -35,13 +35,13 @@ def hidden_corners(
         mine = mesh == number
         body[mine] = mission.meshes[number].body[triangle[mine]]
     pairs, counts = np.unique(np.column_stack([mesh, body]), axis=0, return_counts=True)
-    found = [np.zeros((0, 3))]
+    parts = [np.zeros((0, 3))]
     for (number, which), count in zip(pairs.tolist(), counts.tolist(), strict=True):
         each = mission.meshes[number]
         corners = each.surface.triangles[each.body[each.surface.source] == which].reshape(-1, 3)
         if count >= LEAST_SHARE * len(mesh) and all(_within(corners, *view) for view in views):
-            found.append(corners)
-    return np.concatenate(found)
+            parts.append(corners)
+    return np.concatenate(parts)
 
 
 def _within(corners: Array, camera: CameraPose, box: ScreenBox) -> bool:

@@ -213,6 +213,6 @@ def held(seen: RayHits) -> RayShares:
 
     seen : the rays through the box and around it
     """
-    aside = (RAYS - BOX_RAYS) // 2
-    mesh = seen.mesh[aside : RAYS - aside, aside : RAYS - aside]
+    border = (RAYS - BOX_RAYS) // 2
+    mesh = seen.mesh[border : RAYS - border, border : RAYS - border]
     return RayShares(*(float(part.mean()) for part in (mesh == SKY, mesh == GROUND, mesh >= 0)))

@@ -95,28 +95,28 @@ def identify_source(
         return stopped._replace(diagnostics=(*loaded.diagnostics, *front.diagnostics))
     mission = front.value.mission
     stopped = stopped._replace(title=mission.name)
-    asked = tasks(mission, guess=saliency is not None)
-    wrong = nothing_to_do(mission, asked)
+    searches = tasks(mission, guess=saliency is not None)
+    wrong = nothing_to_do(mission, searches)
     if wrong is not None:
         return stopped._replace(diagnostics=(wrong,))
-    pictures = tuple(picture(mission, task.camera) for task in asked)
-    asked, faults = _with_boxes(mission, asked, pictures, saliency)
+    pictures = tuple(picture(mission, task.camera) for task in searches)
+    searches, faults = _with_boxes(mission, searches, pictures, saliency)
     if faults:
         return stopped._replace(diagnostics=tuple(faults))
-    found = find(mission, [task.glance for task in asked])
-    faults = [*empty(mission, found, asked), *swallowed(mission, found, asked)]
+    result = find(mission, [task.glance for task in searches])
+    faults = [*empty(mission, result, searches), *swallowed(mission, result, searches)]
     if faults:
         return stopped._replace(diagnostics=tuple(faults))
-    done = stopped._replace(tasks=asked, pictures=pictures)
-    return _written(done, mission, found, (data, to))
+    done = stopped._replace(tasks=searches, pictures=pictures)
+    return _written(done, mission, result, (data, to))
 
 
 def _with_boxes(
-    mission: MissionIR, asked: Sequence[SearchTask], pictures: Sequence[Array], saliency: Guesser | None
+    mission: MissionIR, searches: Sequence[SearchTask], pictures: Sequence[Array], saliency: Guesser | None
 ) -> tuple[tuple[SearchTask, ...], list[Diagnostic]]:
     """Return keyframes with guessed boxes, or faults on those without a guess."""
     out, faults = [], []
-    for task, seen in zip(asked, pictures, strict=True):
+    for task, seen in zip(searches, pictures, strict=True):
         if task.box is None and saliency is not None:
             box = saliency.box(seen)
             if not isinstance(box, ScreenBox):
@@ -128,18 +128,18 @@ def _with_boxes(
 
 
 def _written(
-    done: Identification, mission: MissionIR, found: SearchResult, text: tuple[bytes, TextLocation]
+    done: Identification, mission: MissionIR, result: SearchResult, text: tuple[bytes, TextLocation]
 ) -> Identification:
     """Return the mission with the found targets, if it passes the checks."""
     data, to = text
-    names = _names(mission, found)
-    cylinders = {name: target.cylinder for name, target in zip(names, found.targets, strict=True)}
-    called = {i: name for name, target in zip(names, found.targets, strict=True) for i in target.glances}
+    names = _names(mission, result)
+    cylinders = {name: target.cylinder for name, target in zip(names, result.targets, strict=True)}
+    called = {i: name for name, target in zip(names, result.targets, strict=True) for i in target.glances}
     named = [
         Named(task.keyframe.path, called[i], task.box if task.guessed else None)
         for i, task in enumerate(done.tasks)
     ]
-    doubtful = tuple(doubts(mission, found, done.tasks, names))
+    doubtful = tuple(doubts(mission, result, done.tasks, names))
     try:
         made = rewritten(data, mission.origins.file, cylinders, named)
     except NotEditable as layout:
@@ -155,22 +155,22 @@ def _written(
         errors = tuple(d for d in checked.diagnostics if has_errors([d]))
         return done._replace(diagnostics=errors, sources=sources)
     targets = tuple(
-        Identified(name, target.cylinder, target.glances, tuple(_share(found, i) for i in target.glances))
-        for name, target in zip(names, found.targets, strict=True)
+        Identified(name, target.cylinder, target.glances, tuple(_share(result, i) for i in target.glances))
+        for name, target in zip(names, result.targets, strict=True)
     )
     return done._replace(text=made, targets=targets, diagnostics=doubtful, sources=sources)
 
 
-def _share(found: SearchResult, number: int) -> float:
-    choice = found.choices[number]
+def _share(result: SearchResult, number: int) -> float:
+    choice = result.choices[number]
     return 0.0 if choice is None else choice.share
 
 
-def _names(mission: MissionIR, found: SearchResult) -> list[str]:
+def _names(mission: MissionIR, result: SearchResult) -> list[str]:
     """Return a unique name for each target: that in the file, adapted to the language, or a number."""
     taken = {target.name for target in (*mission.targets, *mission.groups)}
     names: list[str] = []
-    for target in found.targets:
+    for target in result.targets:
         own = UNFIT.sub("-", target.name or "").strip("-_")[:LONGEST_NAME_CHARACTERS].strip("-_")
         numbered = (f"{own or 'target'}-{n}" for n in range(2 if own else 1, 10_000))
         name = next(n for n in chain([own] if own else [], numbered) if n not in taken)

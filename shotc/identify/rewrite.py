@@ -187,18 +187,18 @@ def _compare(
     before: Document, after: Document, targets: Mapping[str, Upright], named: Sequence[Named]
 ) -> None:
     """Raise NotEditable if the new text's content differs from the old one's with the additions."""
-    wanted = _copied(before.root)
+    expected = _copied(before.root)
     if targets:
         held = after.root.get("targets", {}) if isinstance(after.root, dict) else {}
-        wanted["targets"] = {**wanted.get("targets", {}), **{key: held.get(key) for key in targets}}
+        expected["targets"] = {**expected.get("targets", {}), **{key: held.get(key) for key in targets}}
     for keyframe in named:
-        mapping: Any = wanted
+        mapping: Any = expected
         for key in keyframe.path:
             mapping = mapping[key]
         mapping["target"] = keyframe.target
         if keyframe.box is not None:
             mapping["box"] = [float(c) for c in _keys(keyframe)["box"][1:-1].split(",")]
-    if after.faults or after.root != wanted:
+    if after.faults or after.root != expected:
         raise NotEditable(named[0].path if named else TARGETS)
 
 

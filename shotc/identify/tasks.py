@@ -50,16 +50,16 @@ def tasks(mission: MissionIR, *, guess: bool) -> tuple[SearchTask, ...]:
 
     guess : whether to include keyframes without a box
     """
-    found = []
+    searches = []
     for shot in mission.shots:
         for number, keyframe in enumerate(shot.keyframes):
             written = keyframe.path[-2:] == ("keyframes", number)
             if written and (keyframe.unidentified or (guess and keyframe.target is None)):
                 box = None if keyframe.box is None else ScreenBox(*keyframe.box)
-                found.append(
+                searches.append(
                     SearchTask(shot.id, number, keyframe, _camera(mission, shot, keyframe), box, box is None)
                 )
-    return tuple(found)
+    return tuple(searches)
 
 
 def _camera(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> CameraPose:
@@ -68,9 +68,9 @@ def _camera(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> CameraPose:
     return CameraPose(keyframe.at, yaw, pitch, keyframe.hfov, mission.drone(shot.drone).aspect)
 
 
-def nothing_to_do(mission: MissionIR, found: Sequence[SearchTask]) -> Diagnostic | None:
+def nothing_to_do(mission: MissionIR, searches: Sequence[SearchTask]) -> Diagnostic | None:
     """Return the reason why no target can be sought, or None."""
-    if not found:
+    if not searches:
         boxed = any(k.box is not None for shot in mission.shots for k in shot.keyframes)
         lacks = "every box has its target" if boxed else "no keyframe has a `box`"
         return Diagnostic(
@@ -84,7 +84,7 @@ def nothing_to_do(mission: MissionIR, found: Sequence[SearchTask]) -> Diagnostic
     return Diagnostic(
         "N017",
         "the mission has no scene in which a target could be found",
-        (_box_label(mission, found[0]),),
+        (_box_label(mission, searches[0]),),
         help="name a mesh or a cloud as `world: {scene: {file: ...}}`, or footprints as `buildings`",
     )
 
@@ -100,17 +100,17 @@ def unguessed(mission: MissionIR, task: SearchTask) -> Diagnostic:
     )
 
 
-def empty(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
+def empty(mission: MissionIR, result: SearchResult, searches: Sequence[SearchTask]) -> list[Diagnostic]:
     """Return the faults on boxes without a possible target."""
     return [
-        _empty(mission, found, number, task)
-        for number, task in enumerate(asked)
-        if found.choices[number] is None
+        _empty(mission, result, number, task)
+        for number, task in enumerate(searches)
+        if result.choices[number] is None
     ]
 
 
-def _empty(mission: MissionIR, found: SearchResult, number: int, task: SearchTask) -> Diagnostic:
-    share = held(found.clustered.seen[number])
+def _empty(mission: MissionIR, result: SearchResult, number: int, task: SearchTask) -> Diagnostic:
+    share = held(result.clustered.seen[number])
     what = "only the sky" if share.sky == 1.0 else "only ground" if share.ground == 1.0 else ""
     if not what and share.scene == 0.0:
         what = "only sky and ground"
@@ -128,12 +128,12 @@ def _box_label(mission: MissionIR, task: SearchTask) -> Label:
     return mission.origins.value((*task.keyframe.path, "at" if task.guessed else "box"))
 
 
-def swallowed(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
+def swallowed(mission: MissionIR, result: SearchResult, searches: Sequence[SearchTask]) -> list[Diagnostic]:
     """Return the faults on cameras inside the cylinder around their own target."""
     faults = []
-    for target in found.targets:
+    for target in result.targets:
         for number in target.glances:
-            if not _holds(target.cylinder, asked[number].camera):
+            if not _holds(target.cylinder, searches[number].camera):
                 continue
             c = target.cylinder
             x, y = c.centre
@@ -142,7 +142,7 @@ def swallowed(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTas
                 Diagnostic(
                     "N018",
                     "the camera stands inside of the cylinder about what its box holds",
-                    (_box_label(mission, asked[number]),),
+                    (_box_label(mission, searches[number]),),
                     (f"the cylinder: {where}", "a target is a cylinder, and kept clear of"),
                     "draw the box round a part that the camera is outside of, or move the keyframe",
                 )
@@ -156,30 +156,30 @@ def _holds(c: Upright, camera: CameraPose) -> bool:
 
 
 def doubts(
-    mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask], names: Sequence[str]
+    mission: MissionIR, result: SearchResult, searches: Sequence[SearchTask], names: Sequence[str]
 ) -> Iterator[Diagnostic]:
     """Yield warnings on targets with a small share of their box.
 
     names : of the targets
     """
-    called = {target.cluster: name for target, name in zip(found.targets, names, strict=True)}
-    for number, task in enumerate(asked):
-        choice = found.choices[number]
+    called = {target.cluster: name for target, name in zip(result.targets, names, strict=True)}
+    for number, task in enumerate(searches):
+        choice = result.choices[number]
         if choice is None or choice.share >= DOUBTFUL_SHARE:
             continue
         yield Diagnostic(
             "N019",
             f"`{called[choice.cluster]}` is {100 * choice.share:.0f} % of what the box means",
             (_box_label(mission, task),),
-            tuple(_runner_up(found, choice, called)),
+            tuple(_runner_up(result, choice, called)),
             "look at the sheet; draw the box closer round what is meant, and identify again",
         )
 
 
-def _runner_up(found: SearchResult, choice: Choice, called: dict[int, str]) -> Iterator[str]:
+def _runner_up(result: SearchResult, choice: Choice, called: dict[int, str]) -> Iterator[str]:
     if choice.runner_up is None:
         return
-    points, cluster = found.clustered.points, found.clustered.cluster
+    points, cluster = result.clustered.points, result.clustered.cluster
     x, y, _ = points.point[cluster == choice.runner_up].mean(axis=0)
     name = called.get(choice.runner_up)
     what = f"`{name}`" if name else "what stands"

@@ -17,8 +17,8 @@ BROKEN = (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, s
 OTHER_PACKING = "is packed in a way that these files are not"
 
 
-def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> bytes | str:
-    """Return the first member whose name is ``wanted``, or a text that says why there is none.
+def member(data: bytes, matches: Callable[[str], bool], what: str, most: int) -> bytes | str:
+    """Return the first member whose name is ``matches``, or a text that says why there is none.
 
     what : description of the member for that text
     most : largest size of the archive, and of the member, bytes
@@ -27,13 +27,13 @@ def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> 
         return f"the file is larger than {most / 1e6:.0f} MB"
     try:
         with ZipFile(BytesIO(data)) as archive:
-            found = next((i for i in archive.infolist() if wanted(i.filename)), None)
-            if found is None:
+            entry = next((i for i in archive.infolist() if matches(i.filename)), None)
+            if entry is None:
                 return f"it is an archive without {what}"
             # Other methods may need any amount of memory. These unpack no more than is read.
-            if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+            if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 return f"its document {OTHER_PACKING}"
-            with archive.open(found) as stream:
+            with archive.open(entry) as stream:
                 inside = stream.read(most + 1)
     except BROKEN as fault:
         return f"it is a broken archive: {fault}"
@@ -64,13 +64,13 @@ class Archive:
         """Return the member with this name, or a text that says why there is none."""
         if self.fault or self._zip is None:
             return self.fault
-        found = self._members.get(normpath(name))
-        if found is None:
+        entry = self._members.get(normpath(name))
+        if entry is None:
             return f"it is an archive without `{plain(name, 60)}`"
-        if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+        if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
             return f"`{plain(name, 60)}` {OTHER_PACKING}"
         try:
-            with self._zip.open(found) as stream:
+            with self._zip.open(entry) as stream:
                 inside = stream.read(min(self._most, self._left) + 1)
         except BROKEN as fault:
             return f"it is a broken archive: {plain(str(fault), 80)}"
@@ -80,8 +80,8 @@ class Archive:
         return inside
 
 
-def members(data: bytes, wanted: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:
-    """Yield (name, bytes) of each member whose name is ``wanted``; after a fault, a text as the last item.
+def members(data: bytes, matches: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:
+    """Yield (name, bytes) of each member whose name is ``matches``; after a fault, a text as the last item.
 
     most : largest size of the archive, and of all members together, bytes
     """
@@ -91,18 +91,18 @@ def members(data: bytes, wanted: Callable[[str], bool], most: int) -> Iterator[t
     left = most
     try:
         with ZipFile(BytesIO(data)) as archive:
-            for found in archive.infolist():
-                if not wanted(found.filename):
+            for entry in archive.infolist():
+                if not matches(entry.filename):
                     continue
-                if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-                    yield f"`{plain(found.filename, 60)}` {OTHER_PACKING}"
+                if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+                    yield f"`{plain(entry.filename, 60)}` {OTHER_PACKING}"
                     return
-                with archive.open(found) as stream:
+                with archive.open(entry) as stream:
                     inside = stream.read(left + 1)
                 left -= len(inside)
                 if left < 0:
                     yield f"what is in it is larger than {most / 1e6:.0f} MB"
                     return
-                yield found.filename, inside
+                yield entry.filename, inside
     except BROKEN as fault:
         yield f"it is a broken archive: {plain(str(fault), 80)}"

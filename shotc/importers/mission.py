@@ -14,7 +14,7 @@ from shotc.importers.formats import WHAT
 from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
-from shotc.importers.notes import Notes, label, told
+from shotc.importers.notes import Notes, assumption_diagnostics, label
 from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
 
@@ -45,7 +45,9 @@ class Imported(NamedTuple):
     cameras: int = 0
 
 
-def imported(format: str, data: bytes, name: str, *, strict: bool, asked: ImportOptions = USUAL) -> Imported:
+def imported(
+    format: str, data: bytes, name: str, *, strict: bool, options: ImportOptions = USUAL
+) -> Imported:
     """Make a mission from a file of one of ``formats.FORMATS``.
 
     data   : any bytes
@@ -54,47 +56,47 @@ def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Import
     """
     if format == "multidrone":
         return import_multidrone(data, name, strict=strict)
-    return _import_cameras(format, data, name, asked, strict=strict)
+    return _import_cameras(format, data, name, options, strict=strict)
 
 
-def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *, strict: bool) -> Imported:
+def _import_cameras(format: str, data: bytes, name: str, options: ImportOptions, *, strict: bool) -> Imported:
     notes = Notes()
     if len(data) > LARGEST_BYTES:
-        found: ImportedTakes | Refused = Refused(
+        footage: ImportedTakes | Refused = Refused(
             "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START
         )
         text = ""
     else:
-        text, found = _footage(format, data, name, asked, notes)
+        text, footage = _footage(format, data, name, options, notes)
     sources = {name: SourceFile(name, text)}
-    if isinstance(found, ImportedTakes):
-        made = written(PurePath(name).stem, WHAT[format], found, asked, notes)
+    if isinstance(footage, ImportedTakes):
+        made = written(PurePath(name).stem, WHAT[format], footage, options, notes)
         if made is not None:
-            said = told(name, notes, strict=strict)
+            said = assumption_diagnostics(name, notes, strict=strict)
             result = None if has_errors(said) else made.text
             return Imported(result, said, sources, 1, made.shots, made.keyframes, made.cameras)
         message = "it holds no take of two cameras or more, and a shot needs two"
-        found = Refused("I003", message, found.node, "add a second camera, and import it again")
-    message = f"`{name}` cannot be imported: {found.message}"
-    wrong = Diagnostic(found.code, message, (label(name, found.node),), (), found.help)
-    return Imported(None, (*told(name, notes, strict=False), wrong), sources)
+        footage = Refused("I003", message, footage.node, "add a second camera, and import it again")
+    message = f"`{name}` cannot be imported: {footage.message}"
+    wrong = Diagnostic(footage.code, message, (label(name, footage.node),), (), footage.help)
+    return Imported(None, (*assumption_diagnostics(name, notes, strict=False), wrong), sources)
 
 
 def _footage(
-    format: str, data: bytes, name: str, asked: ImportOptions, notes: Notes
+    format: str, data: bytes, name: str, options: ImportOptions, notes: Notes
 ) -> tuple[str, ImportedTakes | Refused]:
     """Return the text of a file of cameras, for messages, and its content."""
     if format == "qgc":
-        return shown(data), qgc.footage(data, name, asked, notes)
+        return shown(data), qgc.footage(data, name, options, notes)
     if format in ("blender-camera", "litchi"):
         read = blender.footage if format == "blender-camera" else litchi.footage
-        return shown(data), read(shown(data), asked, notes)
+        return shown(data), read(shown(data), options, notes)
     plain = kml.unpacked(data)
     root = plain if isinstance(plain, XmlFault) else parse_xml(plain)
     if isinstance(root, XmlFault):
         node = Node("", root.line, root.column, wide=1)
         return "" if isinstance(plain, XmlFault) else shown(plain), Refused("I001", root.message, node)
-    return "" if isinstance(plain, XmlFault) else shown(plain), kml.footage(root, asked, notes)
+    return "" if isinstance(plain, XmlFault) else shown(plain), kml.footage(root, options, notes)
 
 
 def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
@@ -116,10 +118,10 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
         message = f"`{name}` is no mission of the MultiDrone project: its root is `{root.tag[:30]}`"
         return Imported(None, (Diagnostic("I002", message, (label(name, root),)),), sources)
     for tag, most in MOST.items():
-        found = below(root, tag)
-        if len(found) > most:
-            message = f"`{name}` cannot be read: it has {len(found)} `{tag}`; at most {most} are read"
-            return Imported(None, (Diagnostic("I001", message, (label(name, found[most]),)),), sources)
+        elements = below(root, tag)
+        if len(elements) > most:
+            message = f"`{name}` cannot be read: it has {len(elements)} `{tag}`; at most {most} are read"
+            return Imported(None, (Diagnostic("I001", message, (label(name, elements[most]),)),), sources)
     notes = Notes()
     sequences = without_far(sequences_of(root, notes), notes)
     frame = frame_of(sequences, notes)
@@ -127,5 +129,5 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     if made is None:
         message = f"`{name}` holds no shooting action that says where it is filmed"
         return Imported(None, (Diagnostic("I003", message, (label(name, root),)),), sources)
-    said = told(name, notes, strict=strict)
+    said = assumption_diagnostics(name, notes, strict=strict)
     return Imported(None if has_errors(said) else made.text, said, sources, made.drones, made.shots)

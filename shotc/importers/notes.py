@@ -59,7 +59,7 @@ def label(file: str, node: Node) -> Label:
     return Label(file, Span(node.line, node.column, node.line, end))
 
 
-def told(file: str, notes: Notes, *, strict: bool) -> tuple[Diagnostic, ...]:
+def assumption_diagnostics(file: str, notes: Notes, *, strict: bool) -> tuple[Diagnostic, ...]:
     """Return a warning for every assumption, or an error if ``strict``."""
     code = "I005" if strict else "I004"
     return tuple(

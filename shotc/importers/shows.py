@@ -25,7 +25,7 @@ from shotc.importers.flights.points import Waypoints
 from shotc.importers.flights.read import Found, Read, read
 from shotc.importers.mission import Imported
 from shotc.importers.names import safe
-from shotc.importers.notes import Notes, label, told
+from shotc.importers.notes import Notes, assumption_diagnostics, label
 from shotc.importers.xml_tree import Node
 from shotc.rounding import down, plain
 from shotc.source.file import SourceFile
@@ -77,37 +77,37 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
     file   : name of the file in the mission, relative to its folder
     strict : report an error instead of making an assumption
     """
-    found = read(data, name) if suffix_of(name) in (SHOW, TABLES) else Read(name, FOREIGN, "")
-    sources = {found.file: SourceFile(found.file, found.text)}
-    show = _show_of(found.found)
+    result = read(data, name) if suffix_of(name) in (SHOW, TABLES) else Read(name, FOREIGN, "")
+    sources = {result.file: SourceFile(result.file, result.text)}
+    show = _show_of(result.found)
     if not isinstance(show, _Show):
         text = f"`{name}` cannot be imported: {show.message}"
-        failed = Diagnostic(show.code, text, (label(found.file, show.node),), (), show.help)
+        failed = Diagnostic(show.code, text, (label(result.file, show.node),), (), show.help)
         return ImportedShow(Imported(None, (failed,), sources), None)
     notes = Notes()
     stem = safe(PurePath(file).stem, "show")
     pads = _pads(show.starts, f"{stem}-pads.csv", notes)
     text = _written(stem, file, show, (pads, _separation(show, notes)), notes)
-    said = told(name, notes, strict=strict)
+    said = assumption_diagnostics(name, notes, strict=strict)
     made = Imported(None if has_errors(said) else text, said, sources, len(show.starts), 1)
     return ImportedShow(made, pads)
 
 
-def _show_of(found: Found | Refused) -> _Show | Refused:
-    if isinstance(found, Refused):
-        return found
-    if isinstance(found, skyc.SkycShow):
-        starts = np.stack([flight.ctrl[0, 0] for flight in found.flights])
-        times = _times(len(starts), max(float(flight.breaks[-1]) for flight in found.flights))
-        curves = (Piecewise(flight.breaks, flight.ctrl) for flight in found.flights)
+def _show_of(result: Found | Refused) -> _Show | Refused:
+    if isinstance(result, Refused):
+        return result
+    if isinstance(result, skyc.SkycShow):
+        starts = np.stack([flight.ctrl[0, 0] for flight in result.flights])
+        times = _times(len(starts), max(float(flight.breaks[-1]) for flight in result.flights))
+        curves = (Piecewise(flight.breaks, flight.ctrl) for flight in result.flights)
         places = np.stack([curve(np.clip(times, curve.start, curve.end)) for curve in curves], axis=1)
-        return _Show(starts, found.origin, times, places)
-    if isinstance(found, Waypoints):
+        return _Show(starts, result.origin, times, places)
+    if isinstance(result, Waypoints):
         return FOREIGN
-    times = _times(len(found), max(float(rows.time[-1]) for rows in found))
-    tracks = [[np.interp(times, rows.time, rows.place[:, k]) for k in range(3)] for rows in found]
+    times = _times(len(result), max(float(rows.time[-1]) for rows in result))
+    tracks = [[np.interp(times, rows.time, rows.place[:, k]) for k in range(3)] for rows in result]
     return _Show(
-        np.stack([rows.place[0] for rows in found]), None, times, np.array(tracks).transpose(2, 0, 1)
+        np.stack([rows.place[0] for rows in result]), None, times, np.array(tracks).transpose(2, 0, 1)
     )
 
 

@@ -45,8 +45,8 @@ class Node:
 
     def value(self, tag: str) -> str:
         """Return the stripped text of the first child with that name; empty if there is none."""
-        found = self.first(tag)
-        return "" if found is None else found.text.strip()
+        child = self.first(tag)
+        return "" if child is None else child.text.strip()
 
 
 class XmlFault(NamedTuple):

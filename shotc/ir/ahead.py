@@ -25,12 +25,12 @@ def looks_along(shot: Shot) -> bool:
     )
 
 
-def least_off_course(drone: Drone, aside: Array) -> Array:
-    """Return the least angle between course and admissible body heading, rad, shaped as ``aside``.
+def least_off_course(drone: Drone, off_course: Array) -> Array:
+    """Return the least angle between course and admissible body heading, rad, shaped as ``off_course``.
 
-    aside : camera yaw less the course, rad, any winding
+    off_course : camera yaw less the course, rad, any winding
     """
     if drone.body == "follow-camera":
-        return np.abs(wrapped(aside))
+        return np.abs(wrapped(off_course))
     low, high = drone.gimbal.yaw
-    return np.asarray(np.maximum(np.abs(wrapped(aside - 0.5 * (low + high))) - 0.5 * (high - low), 0.0))
+    return np.asarray(np.maximum(np.abs(wrapped(off_course - 0.5 * (low + high))) - 0.5 * (high - low), 0.0))

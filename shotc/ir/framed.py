@@ -143,7 +143,7 @@ class _Beside:
 
     def points(self, azimuth: float) -> OffsetPoints:
         """Return the camera's offsets as in ``Ideal``; azimuth : its bearing where none is required, rad."""
-        offsets = tuple(_stood(self.scene, wanted, azimuth) for wanted in self.wanted)
+        offsets = tuple(_stood(self.scene, subject, azimuth) for subject in self.wanted)
         return _evenly(offsets * 2 if len(offsets) == 1 else offsets)
 
     def turned(self, points: OffsetPoints, azimuth: float) -> OffsetPoints:
@@ -158,16 +158,16 @@ def _evenly(offsets: Sequence[Vec3]) -> OffsetPoints:
     return tuple((i / (len(offsets) - 1), offset) for i, offset in enumerate(offsets))
 
 
-def _stood(scene: FramedScene, wanted: Wanted, bearing: float) -> Vec3:
+def _stood(scene: FramedScene, subject: Wanted, bearing: float) -> Vec3:
     """Return the camera's offset from a subject; bearing : the camera's where none is required, rad."""
-    azimuth, size = bearing if wanted.azimuth is None else wanted.azimuth, wanted.size or WHOLE_SIZE
-    offset = stand(wanted, scene.lens, scene.room, azimuth, size)
+    azimuth, size = bearing if subject.azimuth is None else subject.azimuth, subject.size or WHOLE_SIZE
+    offset = stand(subject, scene.lens, scene.room, azimuth, size)
     if scene.mission.terrain is None:
         return offset
     target = scene.mission.target(scene.shot.subjects[0].target)
     for _ in range(MOST_RAISES):  # a higher camera is nearer in the plan, over other ground
-        room = scene.room_beside(target, wanted.centre, offset)
-        offset = stand(wanted, scene.lens, room, azimuth, size)
+        bounds = scene.room_beside(target, subject.centre, offset)
+        offset = stand(subject, scene.lens, bounds, azimuth, size)
     return offset
 
 
@@ -177,9 +177,9 @@ def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> Offse
     best, least = beside.turned(north, 0.0), (2.0, 2.0)
     for k in range(round(2 * pi / BEARING_STEP_RAD)):
         turned = beside.turned(north, first + BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1))
-        found = scene.shares([(t, plus(target.at(t), scene.along(turned, t))) for t in scene.looks])
-        if found < least:
-            best, least = turned, found
+        shares = scene.shares([(t, plus(target.at(t), scene.along(turned, t))) for t in scene.looks])
+        if shares < least:
+            best, least = turned, shares
         if least == (0.0, 0.0):
             break
     return best
@@ -205,26 +205,26 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
     the drone's.
     """
     subjects = scene.shot.subjects
-    wanted, room = scene.wanted(subjects, scene.start), scene.room_at(scene.start)
-    come = scene.comes_from(middle_of(wanted))
+    required, bounds = scene.wanted(subjects, scene.start), scene.room_at(scene.start)
+    come = scene.comes_from(middle_of(required))
     turns = [
         WIDE_BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1)
         for k in range(round(2 * pi / WIDE_BEARING_STEP_RAD))
     ]
-    asked = [w.azimuth for w in wanted if w.azimuth is not None]
-    if room.drawn is not None:
-        x, y, _ = minus(room.drawn.at, middle_of(wanted))
-        asked.append(atan2(x, y))
-    found: list[tuple[float, Pose, tuple[Subject, ...]]] = []
-    for azimuth in [*asked, *(come + turn for turn in turns)]:
-        guess = first_pose(wanted, scene.lens, room, azimuth)
-        pose, cost = viewpoint(wanted, scene.lens, room, guess)
-        settled = _assigned(subjects, wanted, pose, scene.lens)
+    azimuths = [w.azimuth for w in required if w.azimuth is not None]
+    if bounds.drawn is not None:
+        x, y, _ = minus(bounds.drawn.at, middle_of(required))
+        azimuths.append(atan2(x, y))
+    openings: list[tuple[float, Pose, tuple[Subject, ...]]] = []
+    for azimuth in [*azimuths, *(come + turn for turn in turns)]:
+        guess = first_pose(required, scene.lens, bounds, azimuth)
+        pose, cost = viewpoint(required, scene.lens, bounds, guess)
+        settled = _assigned(subjects, required, pose, scene.lens)
         if settled != subjects:
-            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, room, pose)
-        found.append((cost, pose, settled))
-    least = min(cost for cost, _, _ in found)
-    good = [f for f in found if f[0] <= least + NEARLY_AS_GOOD_COST]
+            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, bounds, pose)
+        openings.append((cost, pose, settled))
+    least = min(cost for cost, _, _ in openings)
+    good = [f for f in openings if f[0] <= least + NEARLY_AS_GOOD_COST]
     if len(good) == 1:
         return _polished(scene, good[0])
     scores: list[tuple[float, float, int]] = []
@@ -246,13 +246,13 @@ def _score(scene: FramedScene, first: Pose, subjects: tuple[Subject, ...]) -> tu
 
 
 def _polished(
-    scene: FramedScene, found: tuple[float, Pose, tuple[Subject, ...]]
+    scene: FramedScene, opening: tuple[float, Pose, tuple[Subject, ...]]
 ) -> tuple[Pose, tuple[Subject, ...]]:
     """Return an opening, solved again from its result until the cost hardly falls."""
-    cost, pose, subjects = found
-    wanted = scene.wanted(subjects, scene.start)
+    cost, pose, subjects = opening
+    required = scene.wanted(subjects, scene.start)
     for _ in range(MOST_RESTARTS):
-        pose, later = viewpoint(wanted, scene.lens, scene.room_at(scene.start), pose)
+        pose, later = viewpoint(required, scene.lens, scene.room_at(scene.start), pose)
         if later > (1 - NEARLY_AS_GOOD_COST) * cost:
             break
         cost = later
@@ -269,34 +269,34 @@ def _follow(
     poses = [first]
     middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]
     for t in times[1:]:
-        wanted, room = scene.wanted(subjects, t), scene.room_at(t)
-        later, last = middle_of(wanted), poses[-1]
+        required, bounds = scene.wanted(subjects, t), scene.room_at(t)
+        later, last = middle_of(required), poses[-1]
         eye, along = (last[0], last[1], last[2]), minus(later, middle)
-        way = max(BRISK_SHARE * scene.drone.limits.speed * (t - before), hypot(*along))
-        since = Since(eye, plus(eye, along), way)
-        pose, cost = viewpoint(wanted, scene.lens, room, (*since.kept, last[3], last[4]), since)
+        largest_step = max(BRISK_SHARE * scene.drone.limits.speed * (t - before), hypot(*along))
+        previous = Since(eye, plus(eye, along), largest_step)
+        pose, cost = viewpoint(required, scene.lens, bounds, (*previous.kept, last[3], last[4]), previous)
         if cost == inf:
-            x, y, _ = minus(since.kept, later)
-            guess = first_pose(wanted, scene.lens, room, atan2(x, y))
-            pose, _ = viewpoint(wanted, scene.lens, room, guess, since)
+            x, y, _ = minus(previous.kept, later)
+            guess = first_pose(required, scene.lens, bounds, atan2(x, y))
+            pose, _ = viewpoint(required, scene.lens, bounds, guess, previous)
         poses.append(pose)
         middle, before = later, t
     return tuple(poses)
 
 
 def _assigned(
-    subjects: tuple[Subject, ...], wanted: Sequence[Wanted], pose: Pose, lens: Lens
+    subjects: tuple[Subject, ...], required: Sequence[Wanted], pose: Pose, lens: Lens
 ) -> tuple[Subject, ...]:
     """Assign places of the composition to the subjects without a place of their own, each place once.
 
     The assignment minimises the distances from where the subjects appear without one. A subject that gets no
     place is only kept in the frame.
     """
-    silent = [i for i, w in enumerate(wanted) if w.uv is None and not subjects[i].composition.watches]
+    silent = [i for i, w in enumerate(required) if w.uv is None and not subjects[i].composition.watches]
     if not silent:
         return subjects
-    at = {i: _on_screen(pose, lens, wanted[i]) for i in silent}
-    taken = [w.uv for w in wanted if w.uv is not None]
+    at = {i: _on_screen(pose, lens, required[i]) for i in silent}
+    taken = [w.uv for w in required if w.uv is not None]
     free = [p for p in places_of(subjects[silent[0]].composition) if p not in taken]
     free = [] if subjects[silent[0]].composition.keep else free
     spots: list[Vec2 | None] = [*free, *([None] * max(0, len(silent) - len(free)))]
@@ -311,8 +311,8 @@ def _assigned(
     return tuple(settled)
 
 
-def _on_screen(pose: Pose, lens: Lens, wanted: Wanted) -> Vec2:
-    seen = [judged(pose, lens, wanted._replace(uv=uv)) for uv in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
+def _on_screen(pose: Pose, lens: Lens, subject: Wanted) -> Vec2:
+    seen = [judged(pose, lens, subject._replace(uv=uv)) for uv in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
     if any(s is None for s in seen):
         return (0.0, 0.0)
     a, b, c = (s.screen**2 for s in seen if s is not None)

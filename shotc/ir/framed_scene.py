@@ -22,9 +22,9 @@ LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
 def wanted_at(mission: MissionIR, subject: Subject, start: float, t: float) -> Wanted:
     """Return a subject with its required appearance at mission time t; start : time of the first frame."""
-    target, asked = mission.target(subject.target), subject.asked(t - start)
-    azimuth, elevation = asked.view or (None, None)
-    return Wanted(target.at(t), target.shape_at(t), asked.place, asked.size, azimuth, elevation)
+    target, appearance = mission.target(subject.target), subject.asked(t - start)
+    azimuth, elevation = appearance.view or (None, None)
+    return Wanted(target.at(t), target.shape_at(t), appearance.place, appearance.size, azimuth, elevation)
 
 
 def lens_of(drone: Drone) -> Lens:
@@ -112,22 +112,22 @@ class FramedScene:
             surfaces = hidden_by_surfaces(self.mission, s.target, eyes)
             for (t, eye), share in zip(eyes, surfaces, strict=True):
                 before = standing_before(self.mission, s.target, eye, t)
-                solids = sum(w for w, found in zip(weights, before, strict=True) if found is not None)
+                solids = sum(w for w, obstacle in zip(weights, before, strict=True) if obstacle is not None)
                 hidden += max(solids, share)
         return hidden / (len(eyes) * len(self.shot.subjects))
 
     def _stands_before(self, eye: tuple[float, Vec3]) -> bool:
         """Return whether a solid is before the middle or a side of a subject."""
         return any(
-            found is not None
+            occluder is not None
             for s in self.shot.subjects
-            for found in standing_before(self.mission, s.target, eye[1], eye[0])
+            for occluder in standing_before(self.mission, s.target, eye[1], eye[0])
         )
 
     def _by_surfaces(self, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
         """Return the largest share of a subject that surfaces hide from each place."""
-        found = (hidden_by_surfaces(self.mission, s.target, eyes) for s in self.shot.subjects)
-        return [max(shares) for shares in zip(*found, strict=True)]
+        occluders = (hidden_by_surfaces(self.mission, s.target, eyes) for s in self.shot.subjects)
+        return [max(shares) for shares in zip(*occluders, strict=True)]
 
 
 def _before(mission: MissionIR, shot: Shot) -> Vec3:

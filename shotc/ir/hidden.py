@@ -32,15 +32,15 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 def without_room(mission: MissionIR, drone: Drone, eyes: Sequence[tuple[float, Vec3]]) -> list[bool]:
     """Return for each time and place whether a drone is too near to anything there."""
-    found = [any(True for _ in _lacks_of_solids(mission, drone, eye, t)) for t, eye in eyes]
+    blocked = [any(True for _ in _lacks_of_solids(mission, drone, eye, t)) for t, eye in eyes]
     places = [eye for _, eye in eyes]
     if mission.terrain is not None:
         low = [mission.lowest(p, drone.radius) - p[2] > ROUNDING_M for p in places]
-        found = [a or b for a, b in zip(found, low, strict=True)]
+        blocked = [a or b for a, b in zip(blocked, low, strict=True)]
     for mesh in mission.meshes:
         lack = mesh.lacks(places, mission.rules.beside_obstacle(drone.radius))
-        found = [a or by > ROUNDING_M for a, by in zip(found, lack, strict=True)]
-    return found
+        blocked = [a or by > ROUNDING_M for a, by in zip(blocked, lack, strict=True)]
+    return blocked
 
 
 def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
@@ -63,7 +63,9 @@ def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
 
     Terrain, scenes and buildings count if they hide any of the points of ``hidden_by_surfaces``.
     """
-    solid = next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
+    solid = next(
+        (occluder for occluder in standing_before(mission, name, eye, t) if occluder is not None), None
+    )
     if solid is not None:
         return solid
     return next((by for by, shares in _by_surfaces(mission, name, ((t, eye),)) if any(shares)), None)
@@ -102,8 +104,8 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
     across = (-(y - eye[1]) / level, (x - eye[0]) / level)
     width = target.shape_at(t).half_width(across)
-    aside = (across[0] * width, across[1] * width)
-    points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
+    offset = (across[0] * width, across[1] * width)
+    points = [(x, y, z), (x + offset[0], y + offset[1], z), (x - offset[0], y - offset[1], z)]
     solids = [(z.name, z.solid) for z in mission.opaque_zones]
     one = mission.one_with(name)
     others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))

@@ -56,10 +56,10 @@ class NamedParts(NamedTuple):
 def surfaces_before(mission: MissionIR, target: str) -> tuple[tuple[str, Surface], ...]:
     """Return the surfaces that may hide a target, each with its sort and name; target : its name."""
     own = _bodies(mission, target)
-    found = [(_called(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
+    surfaces = [(_called(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
     if mission.terrain is not None:
-        found.insert(0, (f"terrain {mission.terrain.file}", mission.terrain.ground.surface))
-    return tuple(found)
+        surfaces.insert(0, (f"terrain {mission.terrain.file}", mission.terrain.ground.surface))
+    return tuple(surfaces)
 
 
 def parts_before(mission: MissionIR, target: str) -> dict[str, NamedParts]:

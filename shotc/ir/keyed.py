@@ -93,7 +93,8 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     arrive = _even(shot.keyframes, duration)
     for _ in range(TIMING_ROUNDS):
         ways = [
-            _way(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1])) for i in _gaps(shot)
+            _distance(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1]))
+            for i in _gaps(shot)
         ]
         arrive = _by_length(shot.keyframes, duration, ways)
     placed = tuple(
@@ -116,10 +117,10 @@ def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
     """
     arrive, parts = arrivals(shot), list[int | None]()
     for i, (a, b) in enumerate(pairwise(shot.keyframes)):
-        way = abs(b.hfov - a.hfov)
+        change = abs(b.hfov - a.hfov)
         seconds = max(arrive[i + 1] - arrive[i] - a.hold, NO_TIME_S)
-        free = lens is None or not lens.zooms or way == 0.0
-        parts.append(1 if free or lens is None else parts_of(NEARLY_SHARE * lens.rate * seconds / way))
+        free = lens is None or not lens.zooms or change == 0.0
+        parts.append(1 if free or lens is None else parts_of(NEARLY_SHARE * lens.rate * seconds / change))
     return tuple(parts)
 
 
@@ -155,8 +156,8 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
     for i in _gaps(shot.it):
         # K001 and K003 refuse keyframes without time between them. Planning may still evaluate the ideal.
         seconds = max(arrive[i + 1] - leave[i], NO_TIME_S)
-        way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
-        speeds.append((way / seconds, seconds))
+        distance = _distance(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
+        speeds.append((distance / seconds, seconds))
     rests = [k.hold > 0 for k in keyframes]
     rests[0] |= arrive[0] > 0
     slopes = tuple(_slope(speeds, i, rests=rests[i]) for i in range(len(keyframes)))
@@ -204,7 +205,9 @@ def _gaps(shot: Shot) -> range:
     return range(len(shot.keyframes) - 1)
 
 
-def _way(mission: MissionIR, keyframes: tuple[Keyframe, ...], i: int, times: tuple[float, float]) -> float:
+def _distance(
+    mission: MissionIR, keyframes: tuple[Keyframe, ...], i: int, times: tuple[float, float]
+) -> float:
     """Return the distance from a keyframe to the next; relative to the target if both are beside the same
     one.
 
@@ -230,7 +233,7 @@ def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[floa
     least = SHORTEST_WAY_SHARE * sum(ways) / len(ways) or 1.0
     times = [0.0] * len(keyframes)
     for i, j in pairwise(sorted(known)):
-        lengths = [max(least, way) for way in ways[i:j]]
+        lengths = [max(least, distance) for distance in ways[i:j]]
         free = known[j] - known[i] - sum(k.hold for k in keyframes[i:j])
         clock = known[i]
         for k, length in zip(range(i, j), lengths, strict=True):

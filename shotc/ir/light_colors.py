@@ -54,12 +54,12 @@ def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -
 def tick_colors(flight: FleetTrajectory, ticks: NDArray[np.intp], some: slice = slice(None)) -> Colors:
     """Return the colours of lights with effects at ticks (T,) of ``LIGHT_RATE_HZ``, shape (n, T, 3)."""
     numbers = np.arange(len(flight.coef))[some]
-    found = np.empty((len(numbers), len(ticks), 3), dtype=np.uint8)
+    colors = np.empty((len(numbers), len(ticks), 3), dtype=np.uint8)
     step = max(1, BLOCK_COLORS // max(len(ticks), 1))
     for i in range(0, len(numbers), step):
         spots = Spots(numbers[i : i + step], ticks / LIGHT_RATE_HZ, flight.breaks, flight.coef)
-        found[i : i + step] = np.rint(np.clip(_stacked(flight.lights, spots), 0.0, 255.0))
-    return found
+        colors[i : i + step] = np.rint(np.clip(_stacked(flight.lights, spots), 0.0, 255.0))
+    return colors
 
 
 def faded_colors(lights: Lights, t: Array, some: slice = slice(None)) -> Colors:
@@ -107,8 +107,8 @@ def _stacked(lights: Lights, spots: Spots) -> Levels:
     """
     before, after, share = _rows(lights, spots.times)
     of = np.array(lights.of)
-    found = np.zeros((len(spots.numbers), len(spots.times), 3), dtype=np.float32)
-    lit = np.zeros(found.shape[:2], dtype=np.float32)
+    total = np.zeros((len(spots.numbers), len(spots.times), 3), dtype=np.float32)
+    lit = np.zeros(total.shape[:2], dtype=np.float32)
     rows = lights.colors[spots.numbers]
     for k, look in enumerate(lights.looks):
         parts = ((1.0 - share) * (of[before] == k), share * (of[after] == k))
@@ -122,13 +122,13 @@ def _stacked(lights: Lights, spots: Spots) -> Levels:
         for layer in look.layers:
             colors = _over(colors.astype(np.float32), layer, here, None)
         kept = (~np.isin(spots.numbers, look.spare))[:, None] * weight[when]
-        found[:, when] += kept[..., None] * colors
+        total[:, when] += kept[..., None] * colors
         lit[:, when] += kept
     for layer in lights.over:
         when = np.flatnonzero(_time_weight(layer, spots.times) > 0)
         if len(when):
-            found[:, when] = _over(found[:, when], layer, spots.at(when), lit[:, when])
-    return found
+            total[:, when] = _over(total[:, when], layer, spots.at(when), lit[:, when])
+    return total
 
 
 def _over(colors: Levels, layer: Layer, spots: Spots, lit: Levels | None) -> Levels:

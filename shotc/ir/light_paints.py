@@ -147,9 +147,9 @@ def _unpacked(rgba: str, shape: tuple[int, int, int, int]) -> NDArray[np.uint8]:
         raise ValueError(str(fault)) from None
     if len(data) != size:
         raise ValueError(f"{len(data)} bytes, not {size}")
-    found = np.frombuffer(data, dtype=np.uint8).reshape(shape)
-    found.flags.writeable = False
-    return found
+    pixels = np.frombuffer(data, dtype=np.uint8).reshape(shape)
+    pixels.flags.writeable = False
+    return pixels
 
 
 def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
@@ -161,15 +161,15 @@ def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
     x = ((away @ np.array(screen.right)) / ahead - screen.left) / screen.width
     y = 1.0 - ((away @ np.array(screen.up)) / ahead - screen.bottom) / screen.height
     inside = (depth > 1e-6) & (np.abs(x - 0.5) <= 0.5 + 1e-6) & (np.abs(y - 0.5) <= 0.5 + 1e-6)
-    since = (spots.times - paint.origin) % paint.ends[-1]
-    frame = np.minimum(np.searchsorted(paint.ends, since, side="right"), len(paint.ends) - 1)[None, :]
+    elapsed = (spots.times - paint.origin) % paint.ends[-1]
+    frame = np.minimum(np.searchsorted(paint.ends, elapsed, side="right"), len(paint.ends) - 1)[None, :]
     column, across = _between(x, paint.columns)
     row, down = _between(y, paint.rows)
     right, below = np.minimum(column + 1, paint.columns - 1), np.minimum(row + 1, paint.rows - 1)
     top = _mix(frames[frame, row, column], frames[frame, row, right], across)
     bottom = _mix(frames[frame, below, column], frames[frame, below, right], across)
-    found = _mix(top, bottom, down)
-    return found[..., :3], found[..., 3] / np.float32(FULL_LEVEL) * inside
+    colors = _mix(top, bottom, down)
+    return colors[..., :3], colors[..., 3] / np.float32(FULL_LEVEL) * inside
 
 
 def _between(share: Array, count: int) -> tuple[NDArray[np.intp], Levels]:

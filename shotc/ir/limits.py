@@ -54,11 +54,11 @@ class Limits(NamedTuple):
 
         It is the largest k with |k u - w| <= speed for the unit vector u of the direction and the wind w.
         """
-        way = hypot(east, north)
-        if self.wind == (0.0, 0.0) or way == 0.0:
+        length = hypot(east, north)
+        if self.wind == (0.0, 0.0) or length == 0.0:
             return self.speed
-        along = (east * self.wind[0] + north * self.wind[1]) / way
-        across = (east * self.wind[1] - north * self.wind[0]) / way
+        along = (east * self.wind[0] + north * self.wind[1]) / length
+        across = (east * self.wind[1] - north * self.wind[0]) / length
         return along + sqrt(self.speed**2 - across**2)
 
     def airspeed(self, east: float, north: float) -> float:

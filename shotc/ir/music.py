@@ -48,8 +48,8 @@ class Music(NamedTuple):
         if whole > len(self.listed) or (part > 0.0 and whole == len(self.listed)):
             return None
         here = self.listed[whole - 1]
-        way = self.listed[whole] - here if part > 0.0 else 0.0
-        return self.start + here + part * way
+        interval = self.listed[whole] - here if part > 0.0 else 0.0
+        return self.start + here + part * interval
 
     def next_beat(self, time: float) -> int | None:
         """Return the number of the first beat at or after a mission time, s; None if there is none."""

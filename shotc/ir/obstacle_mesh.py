@@ -76,10 +76,10 @@ class ObstacleMesh:
 
     def nearest_part(self, place: Vec3) -> NearPart:
         """Return the nearest point to a place of W."""
-        found = nearest(self.surface, np.array([place]))
-        x, y, z = found.point[0]
-        name = self.name_at(int(self.surface.source[found.triangle[0]]))
-        return NearPart(name, float(found.distance[0]), (float(x), float(y), float(z)))
+        closest_point = nearest(self.surface, np.array([place]))
+        x, y, z = closest_point.point[0]
+        name = self.name_at(int(self.surface.source[closest_point.triangle[0]]))
+        return NearPart(name, float(closest_point.distance[0]), (float(x), float(y), float(z)))
 
     def block(self, part: int) -> UprightPrism:
         """Return the upright prism about a part: the convex hull of its corners in the plan, and heights."""
@@ -94,8 +94,8 @@ class ObstacleMesh:
         clearance : metres, without the spacing; places that are farther have minus infinity
         """
         need = clearance + self.spacing
-        found: list[float] = (need - self.signed_distance(np.array(places), need)).tolist()
-        return found
+        lacks: list[float] = (need - self.signed_distance(np.array(places), need)).tolist()
+        return lacks
 
     def name_at(self, triangle: int) -> str:
         """Return the name of a triangle's part; triangle : index among those that the surface was made of."""
@@ -121,7 +121,7 @@ def body_prisms(mesh: ObstacleMesh) -> tuple[Prism, ...]:
     surface = mesh.surface
     order = np.argsort(mesh.body[surface.source], kind="stable")
     of = mesh.body[surface.source][order]
-    found = []
+    prisms = []
     for its in np.split(order, np.flatnonzero(np.diff(of)) + 1):
         corners = surface.triangles[its].reshape(-1, 3)
         low, high = corners.min(axis=0), corners.max(axis=0)
@@ -129,5 +129,5 @@ def body_prisms(mesh: ObstacleMesh) -> tuple[Prism, ...]:
             continue
         hull = convex_hull(tuple((float(x), float(y)) for x, y in np.unique(corners[:, :2], axis=0)))
         if len(hull) > 2:
-            found.append(Prism(hull, float(low[2]), float(high[2])))
-    return tuple(found)
+            prisms.append(Prism(hull, float(low[2]), float(high[2])))
+    return tuple(prisms)

@@ -89,7 +89,7 @@ def _part_called(mission: MissionIR, text: str) -> Owner | None:
     """Return the owner of the part of a scene or of buildings with that text; None if there is none."""
     for mesh in mission.meshes:
         parts = (mesh_owner(mesh)._replace(name=name) for name in mesh.names)
-        found = next((part for part in parts if str(part) == text), None)
-        if found is not None:
-            return found
+        match = next((part for part in parts if str(part) == text), None)
+        if match is not None:
+            return match
     return None

@@ -66,12 +66,12 @@ def framed(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Mask:
 
 def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Array:
     """Return the reference (u, v) of the target at times t (M,), shape (M, 2); NaN where there is none."""
-    wanted = np.full((len(t), 2), np.nan)
+    reference_uv = np.full((len(t), 2), np.nan)
     for span in drone.framing:
         if span.shot == shot and span.target == target and span.reference is not None:
             inside = (t >= span.start - SAME_TIME_S) & (t <= span.end + SAME_TIME_S)
-            wanted[inside] = span.reference(t[inside])
-    return wanted
+            reference_uv[inside] = span.reference(t[inside])
+    return reference_uv
 
 
 def projected(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:

@@ -83,12 +83,12 @@ def _angles(first: float, setpoints: Sequence[Setpoint]) -> list[tuple[float, fl
 def _changes(
     first: _Value, setpoints: Sequence[Setpoint], of: Callable[[Setpoint], _Value | None]
 ) -> list[tuple[float, _Value]]:
-    found = [(0.0, first)]
+    changes = [(0.0, first)]
     for setpoint in setpoints:
         value = of(setpoint)
         if value is not None:
-            found.append((setpoint.time, value))
-    return found
+            changes.append((setpoint.time, value))
+    return changes
 
 
 def _azimuth(setpoint: Setpoint) -> float | None:

@@ -118,7 +118,7 @@ def whole_fleets(fleets: Iterable[Fleet]) -> tuple[Fleet, ...]:
     parts: dict[str, list[Fleet]] = {}
     for fleet in fleets:
         parts.setdefault(fleet_name(fleet.name), []).append(fleet)
-    return tuple(_joined(name, found) for name, found in parts.items())
+    return tuple(_joined(name, members) for name, members in parts.items())
 
 
 def _joined(name: str, parts: list[Fleet]) -> Fleet:

@@ -79,8 +79,8 @@ class Terrain:
 
     def height(self, x: float, y: float) -> float | None:
         """Return z of the ground at a place, metres; None where there is no ground."""
-        found = float(height_at(self.ground, np.array([[x, y]]))[0])
-        return None if isnan(found) else found
+        height = float(height_at(self.ground, np.array([[x, y]]))[0])
+        return None if isnan(height) else height
 
 
 def ground_heights(mission: MissionIR, xy: Array) -> Array:

@@ -180,8 +180,8 @@ class Scene(NamedTuple):
         heading and a pitch, and the shot's target, if there is one, is framed.
         """
         if isinstance(aimed.look_at, str):
-            found = self.subject(aimed.look_at, *path, "look_at")
-            return (None, aimed.look_at) if isinstance(found, Target) else found
+            aimed_at = self.subject(aimed.look_at, *path, "look_at")
+            return (None, aimed.look_at) if isinstance(aimed_at, Target) else aimed_at
         framed, where = (shot.target, ()) if own is None else (own, path)
         if framed is not None:
             subject = self.subject(framed, *where, "target")

@@ -67,15 +67,15 @@ def _lenses(
     """Return the fields of view at the keyframes, rad, or the fault if the lens does not have them."""
     drone, places = scene.drone, scene.composition.points
     first = Lens(shot.hfov or drone.hfov, drone.aspect, drone.gimbal.pitch)
-    wanted = Wanted(target.centre, target.shape, places[0] if len(places) == 1 else None)
+    subject = Wanted(target.centre, target.shape, places[0] if len(places) == 1 else None)
     offsets = [minus(eye, target.centre) for eye in eyes]
-    size = size_from(wanted, first, offsets[0])
+    size = size_from(subject, first, offsets[0])
     if not isfinite(size):
         message = f"`{target.name}` is not in front of the camera where this shot begins"
         return scene.fault("K018", message, "begin farther away from it", "distance")
-    found = [lens_for(wanted, first, offset, size) for offset in offsets]
-    lenses = tuple(hfov for hfov in found if hfov is not None)
-    if len(lenses) < len(found):
+    hfovs = [lens_for(subject, first, offset, size) for offset in offsets]
+    lenses = tuple(hfov for hfov in hfovs if hfov is not None)
+    if len(lenses) < len(hfovs):
         message = f"no lens shows `{target.name}` from so near in the size that it has at first"
         help_ = "end farther away, or begin with a wider `hfov` or farther away"
         return scene.fault("K018", message, help_, "distance")

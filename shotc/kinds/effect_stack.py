@@ -41,7 +41,7 @@ def effects_of(
 
     path : of the stack in the mission; pictures : their number in the display, for a stack over all of them
     """
-    found: list[Effect] = []
+    effects: list[Effect] = []
     faults: list[Diagnostic] = []
     for i, spec in enumerate(specs):
         where = (*path, i)
@@ -52,8 +52,10 @@ def effects_of(
             continue
         over = spec.over if isinstance(spec, FrameEffectSpec) else "display"
         paint = _paint(spec, scene)
-        found.append(Effect(paint, spec.blend, spec.opacity, spec.fade_in, spec.fade_out, over, *span, where))
-    return faults or tuple(found)
+        effects.append(
+            Effect(paint, spec.blend, spec.opacity, spec.fade_in, spec.fade_out, over, *span, where)
+        )
+    return faults or tuple(effects)
 
 
 def _paint(spec: EffectSpec, scene: Scene) -> Paint:
@@ -107,15 +109,15 @@ def _of_ramp(spec: RampSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic
 
 
 def _of_chase(spec: ChaseSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic]:
-    lasts = spec.period * spec.length
-    if lasts >= SHORTEST_PASS_S - 1e-9:
+    passage = spec.period * spec.length
+    if passage >= SHORTEST_PASS_S - 1e-9:
         return
     slower, longer = at_least(SHORTEST_PASS_S / spec.length), at_least(SHORTEST_PASS_S / spec.period)
     note = f"lights change {LIGHT_RATE_HZ:g} times a second, so {1e3 * SHORTEST_PASS_S:.0f} ms is the least"
     help_ = f"write `period: {slower} s`"
     if float(longer) <= 1.0:
         help_ += f", or `length: {longer}`"
-    message = f"the band of this chase passes a light in {1e3 * lasts:.0f} ms"
+    message = f"the band of this chase passes a light in {1e3 * passage:.0f} ms"
     yield Diagnostic("D096", message, (scene.origins.value((*path, "period")),), (note,), help_)
 
 
@@ -134,8 +136,8 @@ def _span(
     marks = [_mark(mark, scene, (*path, key), pictures) for key, mark in written]
     faults = [mark for mark in marks if isinstance(mark, Diagnostic)]
     faults += _backwards(spec.from_, spec.until, scene, (*path, "until"))
-    since, until = (mark if isinstance(mark, DisplayTime) else None for mark in marks)
-    return faults or (since, until)
+    start, end = (mark if isinstance(mark, DisplayTime) else None for mark in marks)
+    return faults or (start, end)
 
 
 def _mark(
@@ -157,16 +159,16 @@ def _mark(
 
 
 def _backwards(
-    since: MarkSpec | None, until: MarkSpec | None, scene: Scene, path: KeyPath
+    start: MarkSpec | None, end: MarkSpec | None, scene: Scene, path: KeyPath
 ) -> Iterator[Diagnostic]:
     """Yield the fault of an effect that ends before it starts; path : of its end."""
-    if since is None or until is None:
+    if start is None or end is None:
         return
     label = scene.origins.value(path)
-    if since.seconds is not None and until.seconds is not None and until.seconds <= since.seconds:
-        message = f"the effect ends at {until.seconds:g} s, but begins at {since.seconds:g} s"
-        yield Diagnostic("D098", message, (label,), help=f"write `until: {since.seconds + 1:g} s`, or later")
-    elif since.frame is not None and until.frame is not None and until.frame < since.frame:
-        message = f"the effect ends with frame {until.frame}, but begins with frame {since.frame}"
-        help_ = f"write `until: {{frame: {since.frame}}}`, or a later frame"
+    if start.seconds is not None and end.seconds is not None and end.seconds <= start.seconds:
+        message = f"the effect ends at {end.seconds:g} s, but begins at {start.seconds:g} s"
+        yield Diagnostic("D098", message, (label,), help=f"write `until: {start.seconds + 1:g} s`, or later")
+    elif start.frame is not None and end.frame is not None and end.frame < start.frame:
+        message = f"the effect ends with frame {end.frame}, but begins with frame {start.frame}"
+        help_ = f"write `until: {{frame: {start.frame}}}`, or a later frame"
         yield Diagnostic("D098", message, (label,), help=help_)

@@ -132,11 +132,11 @@ def not_xml(wrong: "NotXml") -> FileFault:
 def _columns(
     line: int, first: tuple[str, ...], layouts: Sequence[tuple[str, ...]]
 ) -> tuple[str, ...] | FileFault:
-    wanted = " or ".join(f"`{','.join(layout)}`" for layout in layouts)
+    expected = " or ".join(f"`{','.join(layout)}`" for layout in layouts)
     if _is_number(first[0]):
         fitting = [layout for layout in layouts if len(layout) == len(first)]
         if not fitting:
-            return FileFault(f"the first row has {len(first)} columns", line, f"write {wanted}")
+            return FileFault(f"the first row has {len(first)} columns", line, f"write {expected}")
         return fitting[0]
     header = tuple(c.lower() for c in first)
     if any(sorted(layout) == sorted(header) for layout in layouts):
@@ -144,10 +144,10 @@ def _columns(
     named = f"the header `{','.join(first)[:60]}` names"
     twice = next((c for c in header if header.count(c) > 1), None)
     if twice:
-        return FileFault(f"{named} `{twice[:30]}` twice", line, f"write {wanted}")
+        return FileFault(f"{named} `{twice[:30]}` twice", line, f"write {expected}")
     if METRES & set(header) and DEGREES & set(header):
-        return FileFault(f"{named} both metres and degrees", line, f"write {wanted}")
-    return FileFault(f"{named} other columns", line, f"write {wanted}")
+        return FileFault(f"{named} both metres and degrees", line, f"write {expected}")
+    return FileFault(f"{named} other columns", line, f"write {expected}")
 
 
 def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple[float, ...] | FileFault:

@@ -73,8 +73,8 @@ def _moving(shot: FollowPathShot, scene: Scene) -> str | None:
 
 def _paced(points: list[Vec3]) -> Ideal:
     """Return the ideal along points at constant speed."""
-    way = list(accumulate((dist(a, b) for a, b in pairwise(points)), initial=0.0))
-    shares = ((s / way[-1], p) for s, p in zip(way, points, strict=True))
+    lengths = list(accumulate((dist(a, b) for a, b in pairwise(points)), initial=0.0))
+    shares = ((s / lengths[-1], p) for s, p in zip(lengths, points, strict=True))
     return Ideal("world", None, tuple(shares), placed=True)
 
 

@@ -68,8 +68,10 @@ class FramingShot(ShotBase):
 
 def expand(shot: FramingShot, scene: Scene) -> Expansion:
     """Return the subjects; the course of the camera is computed later, when all shots and zones are known."""
-    found = [scene.subject(s.target, "subjects", i, "target") for i, s in enumerate(shot.subjects)]
-    against = [f for f in found if isinstance(f, Diagnostic | Deferred)]
+    subjects_or_faults = [
+        scene.subject(s.target, "subjects", i, "target") for i, s in enumerate(shot.subjects)
+    ]
+    against = [f for f in subjects_or_faults if isinstance(f, Diagnostic | Deferred)]
     against += _twice(shot, scene)
     against += _setpoint_faults(shot, scene)
     if shot.timing.duration is None:

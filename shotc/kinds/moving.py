@@ -53,12 +53,12 @@ def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
 
     Without another duration, the last keyframe's time and hold determine it.
     """
-    keyframes, lasts = given.keyframes, given.lasts
+    keyframes, duration = given.keyframes, given.lasts
     last = keyframes[-1]
-    if lasts is None and last.time is not None:
-        lasts = last.time + last.hold
+    if duration is None and last.time is not None:
+        duration = last.time + last.hold
     if len(keyframes) == 1:
-        lasts = last.hold
+        duration = last.hold
         keyframes = (last._replace(hold=0.0), last._replace(hold=0.0))
     named = {k.target: k for k in reversed(keyframes) if k.target is not None}
     subjects = tuple(
@@ -68,8 +68,8 @@ def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
     )
     # The author's keyframes do not determine the ways between them, unless the camera stays in one place.
     placed = shot.kind != "keyframes" or all(stays(a, b) for a, b in pairwise(keyframes))
-    found = timed(shot, scene, KEYED._replace(placed=placed), subjects, lasts)
-    return found if found.ideal is None else found._replace(keyframes=keyframes)
+    expansion = timed(shot, scene, KEYED._replace(placed=placed), subjects, duration)
+    return expansion if expansion.ideal is None else expansion._replace(keyframes=keyframes)
 
 
 def evenly(points: Sequence[Vec3]) -> tuple[tuple[float, Vec3], ...]:

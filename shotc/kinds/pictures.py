@@ -230,8 +230,8 @@ class FramesType(FieldType):
         return core_schema.no_info_wrap_validator_function(lambda value, _: self.read(value), both)
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: Any) -> JsonSchemaValue:
-        found: JsonSchemaValue = handler(core)
-        return found
+        schema: JsonSchemaValue = handler(core)
+        return schema
 
 
 def _picture(value: Any) -> PictureSpec:

@@ -44,13 +44,13 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
             subject = subject._replace(composition=WATCH)
         ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True, aim=aim)
         return timed(shot, scene, ideal, (subject,), lasts=STILL_S)
-    found = scene.aim(shot, shot)
-    if isinstance(found, Diagnostic | Deferred):
-        return Expansion.of([found])
+    aimed = scene.aim(shot, shot)
+    if isinstance(aimed, Diagnostic | Deferred):
+        return Expansion.of([aimed])
     keyframe = scene.keyframe(
         scene.place(shot.at),
-        found[1],
-        aim=found[0],
+        aimed[1],
+        aim=aimed[0],
         hold=shot.timing.duration or STILL_S,
         placed=True,
         path=scene.path,

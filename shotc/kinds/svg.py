@@ -85,9 +85,9 @@ class _Svg:
         self._no_reference(value)
 
     def _no_reference(self, text: str) -> None:
-        found = _OUTSIDE.search(text)
-        if found is not None:
-            self._stop(f"it refers to `{text[found.start() : found.start() + 60]}`", _OWN)
+        match = _OUTSIDE.search(text)
+        if match is not None:
+            self._stop(f"it refers to `{text[match.start() : match.start() + 60]}`", _OWN)
 
     def _stop(self, message: str, help: str, *, unsafe: bool = True) -> None:
         self.wrong = DrawingFault(FileFault(message, self.parser.CurrentLineNumber, help), unsafe)

@@ -47,17 +47,17 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     drifts = hypot(east, north, up) > 0
     if drifts and duration is None:
         return Expansion.of([scene.lasting("K009", "a drift needs a duration", "drift")])
-    lasts = duration or STILL_S
+    seconds = duration or STILL_S
     above, high = shot.altitude.above, shot.altitude.first
-    end = (east * lasts, north * lasts, high + up * lasts)
+    end = (east * seconds, north * seconds, high + up * seconds)
     if target.track is not None:
         places = [Beside(shot.target, p, above=above or "target") for p in ((0.0, 0.0, high), end)]
         beside = (scene.keyframe(b.offset, shot.target, beside=b, **fixed) for b in places)
-        return Expansion.of(beside)._replace(lasts=lasts)
+        return Expansion.of(beside)._replace(lasts=seconds)
     first = scene.raised((x, y, high), target, above)
     if not drifts:
-        return Expansion.of([scene.keyframe(first, shot.target, hold=lasts, **fixed)])
-    fault = _too_fast(shot, scene, target, lasts)
+        return Expansion.of([scene.keyframe(first, shot.target, hold=seconds, **fixed)])
+    fault = _too_fast(shot, scene, target, seconds)
     if fault is not None:
         return Expansion.of([fault])
     return Expansion.of(
@@ -73,7 +73,7 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
     """
     east, north, up = shot.drift or (0.0, 0.0, 0.0)
     limits = scene.drone.limits
-    for way, drift, speed in (
+    for direction, drift, speed in (
         ("across", hypot(east, north), limits.speed_along(east, north)),
         ("up", up, limits.climb),
         ("down", -up, limits.descent),
@@ -84,12 +84,12 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
                 f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
                 f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most"
             ]
-            seen = _seen(shot, scene, target) / duration if way == "across" else most
+            seen = _seen(shot, scene, target) / duration if direction == "across" else most
             if seen < most:
                 notes.append(f"from so high it drifts off its target at more than {at_most(seen)} m/s")
             return scene.fault(
                 "K012",
-                f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {way}",
+                f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {direction}",
                 f"drift less than {at_most(min(most, seen))} m/s, or raise the drone's limits",
                 "drift",
                 notes=tuple(notes),

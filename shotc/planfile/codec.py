@@ -108,13 +108,13 @@ def hints(kind: type) -> dict[str, Any]:
 @cache
 def alternatives(kind: Any) -> frozenset[Any]:
     """Return the records that are alternatives of one field, anywhere in a type."""
-    found: set[Any] = set()
+    classes: set[Any] = set()
     seen: set[Any] = set()
-    _collect(kind, found, seen)
-    return frozenset(found)
+    _collect(kind, classes, seen)
+    return frozenset(classes)
 
 
-def _collect(kind: Any, found: set[Any], seen: set[Any]) -> None:
+def _collect(kind: Any, classes: set[Any], seen: set[Any]) -> None:
     if kind in seen or kind is Piecewise:
         return
     seen.add(kind)
@@ -123,9 +123,9 @@ def _collect(kind: Any, found: set[Any], seen: set[Any]) -> None:
         parts = tuple(hints(kind).values())
     elif get_origin(kind) in (Union, UnionType):
         records = [part for part in parts if isinstance(part, type) and field_names(part)]
-        found.update(records if len(records) > 1 else ())
+        classes.update(records if len(records) > 1 else ())
     for part in parts:
-        _collect(part, found, seen)
+        _collect(part, classes, seen)
 
 
 @dataclass(slots=True)
@@ -284,8 +284,8 @@ def _text(item: ErrorDetails) -> str:
     """Return the message of shotc for one of pydantic's faults."""
     kind, value, context = item["type"], item["input"], item.get("ctx", {})
     if kind in ("too_short", "too_long"):
-        wanted = context.get("min_length", context.get("max_length"))
-        return f"has {context['actual_length']} items, not {wanted}"
+        length = context.get("min_length", context.get("max_length"))
+        return f"has {context['actual_length']} items, not {length}"
     if kind in ("missing", "extra_forbidden"):
         return "is missing" if kind == "missing" else "no such field is known"
     if kind == "fault":

@@ -84,8 +84,8 @@ def _fleets(old: VerifiedIR, new: VerifiedIR) -> Iterator[FleetChange]:
     for name in dict.fromkeys([*before, *after]):
         both = before.get(name), after.get(name)
         drones = tuple(None if track is None else len(track.coef) for track in both)
-        lasts = tuple(None if track is None else float(track.breaks[-1]) for track in both)
-        yield FleetChange(name, (drones[0], drones[1]), (lasts[0], lasts[1]))
+        durations = tuple(None if track is None else float(track.breaks[-1]) for track in both)
+        yield FleetChange(name, (drones[0], drones[1]), (durations[0], durations[1]))
 
 
 def _shots(old: VerifiedIR, new: VerifiedIR) -> Iterator[ShotChange]:

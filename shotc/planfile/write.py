@@ -28,14 +28,14 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
     """Return the JSON value of a plan."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
-    asked = {k: v for k, v in encode_mission(mission).items() if k != "source_sha256"}
+    mission_fields = {k: v for k, v in encode_mission(mission).items() if k != "source_sha256"}
     return {
         "format": FORMAT,
         "version": VERSION,
         "tool": {"name": "shotc", "version": __version__},
         "source": _source(mission),
-        "mission": asked,
-        "mission_sha256": seal(asked),
+        "mission": mission_fields,
+        "mission_sha256": seal(mission_fields),
         "keyframes": [
             {
                 "shot": placed.shot.id,

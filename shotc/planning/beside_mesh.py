@@ -51,8 +51,8 @@ class BesideMesh:
 
         margin : metres kept beyond the clearance, less where an end is nearer (as in ``free_space.required``)
         """
-        room = np.minimum(margin, 0.5 * np.maximum(np.minimum(self.slack(a), self.slack(b)), 0.0))
-        near = comes_within(self.mesh.surface, a, b, self.clearance + room - 1e-9)
+        allowance = np.minimum(margin, 0.5 * np.maximum(np.minimum(self.slack(a), self.slack(b)), 0.0))
+        near = comes_within(self.mesh.surface, a, b, self.clearance + allowance - 1e-9)
         return np.asarray(near | self.mesh.holds(a) | self.mesh.holds(b))
 
     def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:

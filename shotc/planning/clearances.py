@@ -83,27 +83,27 @@ class Clearance(NamedTuple):
         top = self.solid.top + self.metres
         above = f", or fly at z = {at_least(top)} or higher" if isfinite(top) else ""
         if isinstance(self.solid, Cylinder):
-            aside = f"stay {at_least(self.solid.radius + self.metres)} m or more from its axis"
+            advice = f"stay {at_least(self.solid.radius + self.metres)} m or more from its axis"
         else:
-            aside = f"stay {at_least(self.metres)} m or more from its sides"
-        return aside + above
+            advice = f"stay {at_least(self.metres)} m or more from its sides"
+        return advice + above
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
         """Yield places near ``p`` that may keep the distance: above, below and sideways."""
-        room = self.metres + NUDGE_M
+        distance = self.metres + NUDGE_M
         if self.inside:
-            z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
+            z = min(max(p[2], self.solid.bottom + distance), self.solid.top - distance)
             yield (p[0], p[1], z)
-            level = list(_sideways(self.solid, (p[0], p[1]), -room))
+            level = list(_sideways(self.solid, (p[0], p[1]), -distance))
             # Near a corner two sides are too near: move away from the nearest, then from the next.
             near = min(level, key=lambda q: dist(q, p[:2]), default=(p[0], p[1]))
-            yield from ((x, y, z) for x, y in (*level, *_sideways(self.solid, near, -room)))
+            yield from ((x, y, z) for x, y in (*level, *_sideways(self.solid, near, -distance)))
             return
         if isfinite(self.solid.top):
-            yield (p[0], p[1], self.solid.top + room)
+            yield (p[0], p[1], self.solid.top + distance)
         if isfinite(self.solid.bottom):
-            yield (p[0], p[1], self.solid.bottom - room)
-        for x, y in _sideways(self.solid, (p[0], p[1]), room):
+            yield (p[0], p[1], self.solid.bottom - distance)
+        for x, y in _sideways(self.solid, (p[0], p[1]), distance):
             yield (x, y, p[2])
 
 
@@ -155,17 +155,17 @@ def outward(p: Vec3, q: Vec3) -> Vec3:
     )
 
 
-def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:
-    """Yield places at the height of ``p`` at distance ``room`` from the solid's side; negative is inside."""
+def _sideways(solid: Solid, p: Vec2, distance: float) -> Iterator[Vec2]:
+    """Yield places at the height of ``p`` at a distance from the solid's side; negative is inside."""
     if isinstance(solid, Cylinder):
-        yield from _from_axis(solid, p, room)
+        yield from _from_axis(solid, p, distance)
         return
     for a, b in edges(solid.points):
-        yield _from_edge(solid, a, b, p, room)
+        yield _from_edge(solid, a, b, p, distance)
 
 
-def _from_axis(solid: Cylinder, p: Vec2, room: float) -> Iterator[Vec2]:
-    reach = solid.radius + room
+def _from_axis(solid: Cylinder, p: Vec2, distance: float) -> Iterator[Vec2]:
+    reach = solid.radius + distance
     dx, dy = p[0] - solid.centre[0], p[1] - solid.centre[1]
     off = hypot(dx, dy)
     if reach <= 0:
@@ -174,7 +174,7 @@ def _from_axis(solid: Cylinder, p: Vec2, room: float) -> Iterator[Vec2]:
     yield (solid.centre[0] + ux * reach, solid.centre[1] + uy * reach)
 
 
-def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, room: float) -> Vec2:
+def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, distance: float) -> Vec2:
     """Return the place off the nearest point of an edge: along its outward normal, or away from a corner."""
     foot = closest_on_segment(a, b, p)
     length = dist(a, b)
@@ -182,9 +182,9 @@ def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, room: float) -> Vec2:
     away = (p[0] - foot[0], p[1] - foot[1])
     off = hypot(*away)
     at_corner = foot in (a, b) and off > 1e-9
-    if at_corner and room > 0 and not inside_polygon(solid.points, p):
-        return (foot[0] + away[0] / off * room, foot[1] + away[1] / off * room)
-    return (foot[0] + outward[0] * room, foot[1] + outward[1] * room)
+    if at_corner and distance > 0 and not inside_polygon(solid.points, p):
+        return (foot[0] + away[0] / off * distance, foot[1] + away[1] / off * distance)
+    return (foot[0] + outward[0] * distance, foot[1] + outward[1] * distance)
 
 
 def _direction(p: Vec3, q: Vec3) -> str:

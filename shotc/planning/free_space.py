@@ -155,19 +155,19 @@ def _linear_slack(space: FreeSpace, p: Array) -> Array:
 
 def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach]:
     """Return the constraints that one point (3,) violates, the largest lack first."""
-    found = []
+    breaches = []
     for o in space.obstacles:
         lack = o.clearance - float(distances(o.part, p))
-        found.append(Breach(o.owner, lack, o.clearance))
-    found += [Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0) for w in space.walls]
+        breaches.append(Breach(o.owner, lack, o.clearance))
+    breaches += [Breach(w.owner, w.offset - float(p @ np.array(w.normal)), 0.0) for w in space.walls]
     for d in space.discs:
         lack = float(np.linalg.norm(p[:2] - np.array(d.centre))) - d.radius
-        found.append(Breach(d.owner, lack, 0.0))
+        breaches.append(Breach(d.owner, lack, 0.0))
     for surface in space.surfaces:
         lack = -float(surface.slack(p[None])[0])
         owner = surface.owner_at(p) if lack > tolerance else surface.owner
-        found.append(Breach(owner, lack, max(0.0, surface.clearance)))
-    return sorted((b for b in found if b.lack > tolerance), key=lambda b: -b.lack)
+        breaches.append(Breach(owner, lack, max(0.0, surface.clearance)))
+    return sorted((b for b in breaches if b.lack > tolerance), key=lambda b: -b.lack)
 
 
 def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
@@ -271,15 +271,15 @@ def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -
 
 
 def beside_surface(
-    surface: OverGround | BesideMesh, hulls: Array, room: tuple[float, float], owner: int
+    surface: OverGround | BesideMesh, hulls: Array, cover: tuple[float, float], owner: int
 ) -> HalfSpaces:
     """Return half-spaces for a height above terrain, or beside a mesh.
 
     hulls : shape (P, m, 3), points whose convex hull contains each piece
-    room : reach and share, as in ``corridor``
+    cover : reach and share, as in ``corridor``
     owner : their index
     """
-    reach, share = room
+    reach, share = cover
     planes = surface.planes(hulls, reach, lambda slack: kept(slack, share))
     offset = np.repeat(planes.offset[:, None], 6, axis=1)
     return HalfSpaces(planes.piece, planes.normal, offset, np.full(len(planes.piece), owner))

@@ -154,17 +154,17 @@ def _course(
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
     shifts = np.concatenate([np.zeros((1, 3)), rings.reshape(-1, 3)])
     places, step = at_ideal[:, None] + shifts, np.diff(times)
-    room = _room(space, near, times, places)
+    slack = _slack(space, near, times, places)
     price = (shifts**2).sum(axis=1) + np.zeros((len(times), 1))
     if watched is not None:
         far = np.linalg.norm(shifts, axis=1)
         away = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
-        most = np.where(room[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # a blocked ideal is left anyway
+        most = np.where(slack[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # a blocked ideal is left anyway
         unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
         price += (UNSEEN_SHARE * away) ** 2 * unseen
-    stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED_COST)
+    stay = np.where(slack >= 0.0, price * np.gradient(times)[:, None], BLOCKED_COST)
     if held is not None:
-        stay[held & (room[:, 0] >= 0.0), 1:] = BLOCKED_COST
+        stay[held & (slack[:, 0] >= 0.0), 1:] = BLOCKED_COST
     apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
     change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED_COST)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
@@ -180,18 +180,18 @@ def _course(
         if not len(stopped):
             return np.asarray(shifts[chosen])
         for k in stopped:
-            shut[k] = _shut(space, places[k : k + 2], room[k : k + 2], change < BLOCKED_COST)
+            shut[k] = _shut(space, places[k : k + 2], slack[k : k + 2], change < BLOCKED_COST)
         tested[stopped] = True
 
 
-def _room(space: FreeSpace, near: Sequence[Passing], times: Array, places: Array) -> Array:
+def _slack(space: FreeSpace, near: Sequence[Passing], times: Array, places: Array) -> Array:
     """Return the slack of places of layers (L, C, 3) over their clearances and a margin; (L, C), metres."""
-    room = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2])
+    slack = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2])
     for what in near:
         beside = places - what.at(times)[:, None]
-        far = distances(what.part, beside.reshape(-1, 3)).reshape(room.shape)
-        room = np.minimum(room, far - what.clearance)
-    return np.asarray(room - MARGIN_M)
+        far = distances(what.part, beside.reshape(-1, 3)).reshape(slack.shape)
+        slack = np.minimum(slack, far - what.clearance)
+    return np.asarray(slack - MARGIN_M)
 
 
 def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Array, float]:
@@ -208,19 +208,19 @@ def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Arra
     return np.array(chosen[::-1]), float(cost.min())
 
 
-def _shut(space: FreeSpace, places: Array, room: Array, near: Mask) -> Mask:
+def _shut(space: FreeSpace, places: Array, slack: Array, near: Mask) -> Mask:
     """Return which segments from places of one layer to those of the next are blocked; (C, C).
 
     A segment is free if the slacks of its ends together are at least its length.
 
     places : (2, C, 3)
-    room : their slack (2, C), metres
+    slack : their slack (2, C), metres
     near : segments that count, (C, C)
     """
     long = np.linalg.norm(places[0][:, None] - places[1][None], axis=2)
-    free = near & (room[0] >= 0.0)[:, None] & (room[1] >= 0.0)
+    free = near & (slack[0] >= 0.0)[:, None] & (slack[1] >= 0.0)
     shut: Mask = ~free
-    i, j = np.nonzero(free & (room[0][:, None] + room[1] < long))
+    i, j = np.nonzero(free & (slack[0][:, None] + slack[1] < long))
     shut[i, j] = _stopped(space, places[0][i], places[1][j])
     return shut
 

@@ -21,8 +21,8 @@ def standing(fleet: Fleet, coef: Array) -> Mask | None:
 
 def standing_at(fleet: Fleet, flight: FleetTrajectory, times: Array) -> Mask:
     """Return whether each drone stands at each time, shape (n, T); all False where all take off at once."""
-    found = standing(fleet, flight.coef)
-    if found is None:
+    stands = standing(fleet, flight.coef)
+    if stands is None:
         return np.zeros((len(flight.coef), len(times)), dtype=np.bool_)
-    piece = np.clip(np.searchsorted(flight.breaks, times) - 1, 0, found.shape[1] - 1)
-    return found[:, piece]
+    piece = np.clip(np.searchsorted(flight.breaks, times) - 1, 0, stands.shape[1] - 1)
+    return stands[:, piece]

@@ -81,12 +81,12 @@ class OverGround:
         hulls, parts = self._turned(hulls), []
         left = np.arange(len(hulls))
         for width in (WIDTH_M + WIDTH_SHARE * reach, *NARROWER_M):
-            found = ground_planes(self.ground, hulls[left], width, self.clearance, kept)
-            found = replace(found, piece=left[found.piece])
-            slack = np.einsum("rmd,rd->rm", hulls[found.piece], found.normal).min(axis=1) - found.offset
+            planes = ground_planes(self.ground, hulls[left], width, self.clearance, kept)
+            planes = replace(planes, piece=left[planes.piece])
+            slack = np.einsum("rmd,rd->rm", hulls[planes.piece], planes.normal).min(axis=1) - planes.offset
             fits = (slack >= -FITS_M) | (width == NARROWER_M[-1])
-            parts.append(_picked(found, fits & (slack < reach)))
-            left = found.piece[~fits]
+            parts.append(_picked(planes, fits & (slack < reach)))
+            left = planes.piece[~fits]
             if not len(left):
                 break
         return Planes(
@@ -104,9 +104,9 @@ class OverGround:
         branch and bound.
         """
         hulls = self._turned(hulls)
-        found = ground_planes(self.ground, hulls, 0.0, self.clearance, np.zeros_like)
+        planes = ground_planes(self.ground, hulls, 0.0, self.clearance, np.zeros_like)
         lack = np.full(len(hulls), OUTSIDE_M)
-        lack[found.piece] = found.offset - np.einsum("rmd,rd->rm", hulls[found.piece], found.normal).min(
+        lack[planes.piece] = planes.offset - np.einsum("rmd,rd->rm", hulls[planes.piece], planes.normal).min(
             axis=1
         )
         for i in np.flatnonzero((lack > 0.0) | self._ends_below(hulls)):

@@ -58,16 +58,16 @@ def fewer(section: Section, corners: Array, apart: float) -> Array:
 
     corners : shape (K, 2), as of the section
     """
-    way = [(float(x), float(z)) for x, z in corners]
+    line = [(float(x), float(z)) for x, z in corners]
     k = 1
-    while k + 2 < len(way):
-        met = _meet(way[k - 1 : k + 3]) if way[k + 1][0] - way[k][0] < apart else None
-        if met is not None and _passes(section, [way[k - 1], met, way[k + 2]]):
-            way[k : k + 2] = [met]
+    while k + 2 < len(line):
+        met = _meet(line[k - 1 : k + 3]) if line[k + 1][0] - line[k][0] < apart else None
+        if met is not None and _passes(section, [line[k - 1], met, line[k + 2]]):
+            line[k : k + 2] = [met]
             k = max(1, k - 1)
         else:
             k += 1
-    return np.array(way)
+    return np.array(line)
 
 
 def cut(corners: Array, most: float) -> Array:
@@ -92,8 +92,8 @@ def _meet(four: list[tuple[float, float]]) -> tuple[float, float] | None:
     return (x, z0 + first * (x - x0)) if x1 <= x <= x2 else None
 
 
-def _passes(section: Section, way: list[tuple[float, float]]) -> bool:
-    x, z = np.array(way).T
+def _passes(section: Section, line: list[tuple[float, float]]) -> bool:
+    x, z = np.array(line).T
     part = slice(*np.searchsorted(section.along, [x[0], x[-1]], side="right"))
     height = np.interp(section.along[part], x, z)
     return bool(((height >= section.low[part] - 1e-9) & (height <= section.high[part] + 1e-9)).all())

@@ -112,25 +112,25 @@ class ConeRows:
         terms = csr_matrix((np.concatenate(self._values), places), shape=(self._count, self.unknowns))
         constants, square = np.concatenate(self._constants), self._square(hessian)
         settings = _settings(tolerance, scaled=scaled)
-        asked = [np.ones(block.cones, dtype=np.bool_) for block in self._blocks]
+        active = [np.ones(block.cones, dtype=np.bool_) for block in self._blocks]
         if near is not None:
-            asked = self._reached(near.share, constants + terms @ near.x, constants)
+            active = self._reached(near.share, constants + terms @ near.x, constants)
         while True:
-            parts = list(zip(self._blocks, asked, strict=True))
+            parts = list(zip(self._blocks, active, strict=True))
             rows = np.concatenate([_rows(*part) for part in parts])
             cones = [cone for part in parts for cone in _cones(*part)]
             # Clarabel's form is A x + s = rhs with s in the cone; s is our expression, so A = -terms.
             status, x = _solved((square, cost, -terms[rows].tocsc(), constants[rows], cones), settings)
-            if all(part.all() for part in asked):
+            if all(part.all() for part in active):
                 return status, x
             if status in USABLE:
                 reached = self._reached(1.0 + tolerance, constants + terms @ x, constants)
-                broken = [new & ~old for new, old in zip(reached, asked, strict=True)]
+                broken = [new & ~old for new, old in zip(reached, active, strict=True)]
                 if not any(part.any() for part in broken):
                     return status, x
-                asked = [old | _widened(new) for new, old in zip(broken, asked, strict=True)]
+                active = [old | _widened(new) for new, old in zip(broken, active, strict=True)]
             else:
-                asked = [np.ones_like(part) for part in asked]
+                active = [np.ones_like(part) for part in active]
 
     def _reached(self, share: float, values: Array, constants: Array) -> list[BoolArray]:
         """Return for each block the mask of cones whose values reach a share of their bound; equalities
@@ -161,15 +161,15 @@ class ConeRows:
         return triu(hessian, format="csc")
 
 
-def _rows(block: _Block, asked: BoolArray) -> NDArray[np.int_]:
+def _rows(block: _Block, active: BoolArray) -> NDArray[np.int_]:
     """Return the rows of a block's active cones."""
     each = np.arange(block.rows.start, block.rows.stop).reshape(block.cones, block.dim)
-    return each[asked].ravel()
+    return each[active].ravel()
 
 
-def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
+def _cones(block: _Block, active: BoolArray) -> Sequence[Any]:
     """Return a block's active cones as Clarabel's types."""
-    count = int(asked.sum())
+    count = int(active.sum())
     if block.kind == "cone":
         return [clarabel.SecondOrderConeT(block.dim)] * count
     kind = clarabel.ZeroConeT if block.kind == "zero" else clarabel.NonnegativeConeT

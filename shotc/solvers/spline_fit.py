@@ -79,23 +79,23 @@ def _least_squares(task: Fit) -> tuple[Any, Array]:
         scalar_map(_stiff(task, 1, task.stiffness[0]), size),
         scalar_map(_stiff(task, 3, task.stiffness[1]), size),
     ]
-    wanted = np.concatenate([root * task.value, np.zeros(parts[1].shape[0] + parts[2].shape[0])])
-    return vstack(parts, format="csr"), wanted
+    rhs = np.concatenate([root * task.value, np.zeros(parts[1].shape[0] + parts[2].shape[0])])
+    return vstack(parts, format="csr"), rhs
 
 
 def _unbounded(task: Fit) -> Array:
     from scipy.sparse import bmat
     from scipy.sparse.linalg import spsolve
 
-    matrix, wanted = _least_squares(task)
+    matrix, rhs = _least_squares(task)
     size = matrix.shape[1]
     normal = matrix.T @ matrix
     binding, bound = _anchors(task)
     if not len(bound):
-        return np.asarray(spsolve(normal.tocsc(), matrix.T @ wanted))
+        return np.asarray(spsolve(normal.tocsc(), matrix.T @ rhs))
     anchors = scalar_map(binding, size)
     system = bmat([[normal, anchors.T], [anchors, None]], format="csc")
-    return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, bound]))[:size])
+    return np.asarray(spsolve(system, np.concatenate([matrix.T @ rhs, bound]))[:size])
 
 
 def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:

@@ -94,8 +94,8 @@ class _Model:
         for k in (1, 2):
             self.rows.zero([(k * self.nodes + ends, np.ones(2))])
         knots = np.array([knot for knot, _ in places])
-        wanted = (np.array([s for _, s in places]) - self.start) / self.size
-        self.rows.zero([(knots, np.ones(len(knots)))], -wanted)
+        targets = (np.array([s for _, s in places]) - self.start) / self.size
+        self.rows.zero([(knots, np.ones(len(knots)))], -targets)
         self.rows.positive(np.zeros(1), [self.overdraft(np.ones(1))])
 
     def overdraft(self, coefficient: Array) -> Term:

@@ -18,8 +18,8 @@ def value_in_comment(text: str, start: int, end: int) -> tuple[int, int] | None:
         sign = _COMMENT.search(seen)
         if sign is not None:
             first = _WORD if seen[: sign.start()].rstrip().endswith(":") else _COLOUR
-            found = first.match(seen, sign.start())
-            if found is not None:
-                return (start + found.start(), start + found.end())
+            match = first.match(seen, sign.start())
+            if match is not None:
+                return (start + match.start(), start + match.end())
         start += len(line)
     return None

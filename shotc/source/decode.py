@@ -106,7 +106,7 @@ def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
     offsets = [match.start() for match in _STRAY_LATIN.finditer(text)]
     for character in _STRAY_OTHERS:
         if character in text:
-            offsets += [offset for offset, found in enumerate(text) if found == character]
+            offsets += [offset for offset, other in enumerate(text) if other == character]
     offsets.sort()
     if len(offsets) <= MAX_STRAY_CHARACTERS:
         return [_stray_character(text, offset, file) for offset in offsets], True

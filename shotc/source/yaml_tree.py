@@ -43,16 +43,16 @@ def parse(data: bytes, name: str) -> Document:
     if not readable:
         return Document(file, None, faults=_capped(list(faults)), whole=False)
     composed = compose(file)
-    found = [*faults, *composed.faults]
+    diagnostics = [*faults, *composed.faults]
     root = composed.root
     if composed.whole:
-        found += _root_faults(root, file)
+        diagnostics += _root_faults(root, file)
     if root is None:
-        return Document(file, None, faults=_capped(found), whole=composed.whole)
+        return Document(file, None, faults=_capped(diagnostics), whole=composed.whole)
     flat = _Flat()
     value = flat.add(root, ())
     keys, values = Spans(file, flat.keys), Spans(file, flat.values)
-    return Document(file, value, keys, values, _capped(found), composed.whole)
+    return Document(file, value, keys, values, _capped(diagnostics), composed.whole)
 
 
 _BEGIN = "begin with 'shotc: 1' and 'mission: NAME', or start from a template: shotc new"

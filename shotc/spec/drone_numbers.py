@@ -21,17 +21,17 @@ class NumbersType(FieldType):
 
     def read(self, value: Any) -> tuple[int, ...]:
         """Return all numbers, each once."""
-        found: set[int] = set()
+        named: set[int] = set()
         for item in value if isinstance(value, list) else [value]:
             numbers = _span(item)
-            again = found.intersection(numbers)
+            again = named.intersection(numbers)
             if again:
                 help_ = "name every drone of the group once"
                 raise fault("out-of-range", f"drone {min(again)} is named twice", help_)
-            found.update(numbers)
-        if not found:
+            named.update(numbers)
+        if not named:
             raise fault("wrong-length", "a group needs a drone", _RULE)
-        return tuple(sorted(found))
+        return tuple(sorted(named))
 
     def schema(self) -> JsonSchemaValue:
         """Return a number, a range, or a list of both."""

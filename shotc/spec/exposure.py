@@ -107,7 +107,7 @@ class IntervalType(FieldType):
 
     def schema(self) -> JsonSchemaValue:
         """Return the schema of both notations, with their units."""
-        return {"anyOf": [way.schema()["anyOf"][1] for way in self._ways]}
+        return {"anyOf": [interval.schema()["anyOf"][1] for interval in self._ways]}
 
 
 class ShutterType(FieldType):

@@ -31,12 +31,14 @@ def shape_faults(
     kinds : the usable kinds, and the diagnostics of unusable registered ones
     """
     usable, unusable = kinds
-    found = _version_findings(root)
-    if not any(f.slug == "unknown-version" for f in found):
+    broken_rules = _version_findings(root)
+    if not any(f.slug == "unknown-version" for f in broken_rules):
         faults = findings(error) if error is not None else []
-        found += [f for f in faults if f.path != ("shotc",)] + _shot_findings(root, [*usable, *unusable])
+        broken_rules += [f for f in faults if f.path != ("shotc",)] + _shot_findings(
+            root, [*usable, *unusable]
+        )
     broken = tuple(_broken_kinds(root, unusable, origins))
-    return _diagnostics([_uncovered(f, origins, file) for f in found], origins, broken)
+    return _diagnostics([_uncovered(f, origins, file) for f in broken_rules], origins, broken)
 
 
 def _broken_kinds(
@@ -109,11 +111,11 @@ def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> UnplacedFau
 
 
 def _diagnostics(
-    found: list[UnplacedFault], origins: OriginMap, others: tuple[Diagnostic, ...]
+    faults: list[UnplacedFault], origins: OriginMap, others: tuple[Diagnostic, ...]
 ) -> tuple[Diagnostic, ...]:
     """Return one diagnostic for each faulty place, and the others, in the order of the file."""
     first: dict[tuple[KeyPath, str], UnplacedFault] = {}
-    for finding in found:
+    for finding in faults:
         first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
     every = [_diagnostic(f, origins) for f in first.values()]
     return capped(sorted([*every, *others], key=lambda d: d.sort_key), "this file")

@@ -47,9 +47,9 @@ class LiveAim:
         planned = self._course.aim(tick)
         if not self._feeds:
             return planned
-        wanted = self._wanted(tick / RATE_HZ, now)
+        offset = self._wanted(tick / RATE_HZ, now)
         before, most = self._off, self._drone.gimbal.rate * PERIOD_S
-        self._off = (_towards(before[0], wanted[0], most), _towards(before[1], wanted[1], most))
+        self._off = (_towards(before[0], offset[0], most), _towards(before[1], offset[1], most))
         yaw, pitch = self._off
         if abs(yaw) < BACK_RAD and abs(pitch) < BACK_RAD:
             return planned
@@ -85,14 +85,14 @@ class LiveAim:
         u, v, depth = view(yaw, pitch, hfov, self._drone.aspect).project(minus(planned, place))
         if depth <= 0:
             return (0.0, 0.0)
-        found = aim_at(minus(live, place), (u, v), hfov, self._drone.aspect, yaw)
-        if found is None:
+        aim = aim_at(minus(live, place), (u, v), hfov, self._drone.aspect, yaw)
+        if aim is None:
             return (0.0, 0.0)
         low, high = self._drone.gimbal.pitch
-        pitch_off = min(max(found[1], low), high) - pitch
+        pitch_off = min(max(aim[1], low), high) - pitch
         if not self._course.pans:
             return (0.0, pitch_off)
-        return (self._panned(float(wrapped(found[0] - yaw)), yaw, float(pose[BODY_YAW])), pitch_off)
+        return (self._panned(float(wrapped(aim[0] - yaw)), yaw, float(pose[BODY_YAW])), pitch_off)
 
     def _panned(self, off: float, yaw: float, body: float) -> float:
         """Return the part of the pan offset ``off`` that the gimbal's pan range allows, rad."""
@@ -101,5 +101,5 @@ class LiveAim:
         return min(max(pan + off, min(left, pan)), max(right, pan)) - pan
 
 
-def _towards(value: float, wanted: float, most: float) -> float:
-    return value + float(np.clip(wanted - value, -most, most))
+def _towards(value: float, goal: float, most: float) -> float:
+    return value + float(np.clip(goal - value, -most, most))

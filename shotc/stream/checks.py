@@ -87,8 +87,8 @@ def ready_to_fly(ready: Ready, origin: GeoOrigin, course: SetpointSeries | None)
     origin : origin of the plan's frame
     course : the setpoints to send, None if the vehicle's position is unknown
     """
-    found = [*_state(ready), *_losses(ready), *_place(ready, origin)]
-    return found if course is None else [*found, *_gimbal(ready, course), *_speeds(ready, course)]
+    diagnostics = [*_state(ready), *_losses(ready), *_place(ready, origin)]
+    return diagnostics if course is None else [*diagnostics, *_gimbal(ready, course), *_speeds(ready, course)]
 
 
 def frame_of(ready: Ready, origin: GeoOrigin) -> LocalFrame | None:
@@ -114,11 +114,11 @@ def home_offset(ready: Ready, origin: GeoOrigin) -> Vec3:
 def actions_of(vehicle: VehicleStatus) -> dict[str, Action]:
     """Return the action of the autopilot on a lost link, by parameter."""
     known = vehicle.parameters
-    found = {
+    actions = {
         rule.parameter: rule.actions.get(_whole(known.get(rule.parameter)))
         for rule in vehicle.autopilot.losses
     }
-    return {parameter: action for parameter, action in found.items() if action is not None}
+    return {parameter: action for parameter, action in actions.items() if action is not None}
 
 
 def loss_times(vehicle: VehicleStatus) -> dict[str, float]:
@@ -307,8 +307,8 @@ def _gimbal(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
         return
     low, high = pitch_range(course)
     least, most = gimbal.pitch
-    told = isfinite(least) and isfinite(most) and least < most
-    if told and (low < least - SLACK_RAD or high > most + SLACK_RAD):
+    known = isfinite(least) and isfinite(most) and least < most
+    if known and (low < least - SLACK_RAD or high > most + SLACK_RAD):
         yield Diagnostic(
             "A012",
             f"the gimbal of `{name}` does not reach all that the plan looks at",
@@ -322,16 +322,16 @@ def _gimbal(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
 
 
 def _speeds(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
-    asked = speeds(course)
+    needed = speeds(course)
     for limit in ready.vehicle.autopilot.speeds:
         most = ready.vehicle.parameters.get(limit.parameter, inf)
-        if asked[limit.axis] > most * (1 + SPEED_SLACK_SHARE):
+        if needed[limit.axis] > most * (1 + SPEED_SLACK_SHARE):
             yield Diagnostic(
                 "A014",
                 f"the vehicle of `{ready.drone.name}` is not let fly as fast as the plan",
                 (ready.label("limits"),),
-                (f"it asks for {asked[limit.axis]:.1f} m/s {limit.axis}; {limit.parameter} is {most:g}",),
-                f"set {limit.parameter} to {up(asked[limit.axis], 1):g} or more, or plan with lower limits",
+                (f"it asks for {needed[limit.axis]:.1f} m/s {limit.axis}; {limit.parameter} is {most:g}",),
+                f"set {limit.parameter} to {up(needed[limit.axis], 1):g} or more, or plan with lower limits",
             )
 
 

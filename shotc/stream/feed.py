@@ -64,24 +64,24 @@ class Feed:
     def _spots(self, data: bytes) -> list[Spot]:
         if data.lstrip().startswith(b"{"):
             spot = self._of_json(data)
-            found = [] if spot is None else [spot]
-            self.unread += not found
-            return found
+            spots = [] if spot is None else [spot]
+            self.unread += not spots
+            return spots
         places = [m.place for m in self._mavlink(data) if isinstance(m, GlobalPosition)]
         return [spot for place in places if (spot := self._of_place(place)) is not None]
 
     def _of_json(self, data: bytes) -> Spot | None:
         try:
-            told = json.loads(data)
+            message = json.loads(data)
         except (ValueError, RecursionError):
             return None
-        lat, lon = _number(told.get("lat")), _number(told.get("lon"))
+        lat, lon = _number(message.get("lat")), _number(message.get("lon"))
         if lat is not None and lon is not None:
-            alt = _number(told.get("alt"))
+            alt = _number(message.get("alt"))
             spot = self._of_place(GlobeFix(lat, lon, self._origin[2] if alt is None else alt))
             return None if spot is None else (spot[0], spot[1], None if alt is None else spot[2])
-        x, y = _number(told.get("x")), _number(told.get("y"))
-        return None if x is None or y is None else _near((x, y, _number(told.get("z"))))
+        x, y = _number(message.get("x")), _number(message.get("y"))
+        return None if x is None or y is None else _near((x, y, _number(message.get("z"))))
 
     def _of_place(self, place: GlobeFix) -> Spot | None:
         return _near(to_world((place.lat, place.lon, place.alt), self._origin))

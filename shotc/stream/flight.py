@@ -70,10 +70,10 @@ class StreamedFlight:
         """Fly; return when all drones have landed, or have been ordered to hold because something
         is wrong.
         """
-        found: list[Diagnostic] = []
+        diagnostics: list[Diagnostic] = []
         interrupted = False
         try:
-            found = self._run()
+            diagnostics = self._run()
         except KeyboardInterrupt:
             interrupted = True
             self._say("interrupted: every drone in the air is asked to hold")
@@ -84,32 +84,32 @@ class StreamedFlight:
         holding: list[tuple[str, str]] = []
         if not landed:
             holding, more = self._hold()
-            found += more
+            diagnostics += more
         times = send_times(self._delays, self._skipped)
-        return FlightResult(times, found, landed and not interrupted, interrupted, holding)
+        return FlightResult(times, diagnostics, landed and not interrupted, interrupted, holding)
 
     def _run(self) -> list[Diagnostic]:
-        found: list[Diagnostic] = []
+        diagnostics: list[Diagnostic] = []
         start = self._clock.now() - self._tick * PERIOD_S
         if self._tick < 0:
             self._say(f"mission time 0 is in {-self._tick * PERIOD_S:.1f} s")
         while not all(member.pilot.done for member in self._crew):
-            due = start + self._tick * PERIOD_S
-            self._clock.wait_until(due)
-            behind = self._clock.now() - due
+            tick_time = start + self._tick * PERIOD_S
+            self._clock.wait_until(tick_time)
+            behind = self._clock.now() - tick_time
             if behind > STALL_S:
-                return [*found, faults.stalled(behind, STALL_S)]
+                return [*diagnostics, faults.stalled(behind, STALL_S)]
             if self._tick == 0:
                 self._say("mission time 0")
             self._send()
-            self._delays.append(self._clock.now() - due)
-            found += self._attend()
-            if has_errors(found):
-                return found
+            self._delays.append(self._clock.now() - tick_time)
+            diagnostics += self._attend()
+            if has_errors(diagnostics):
+                return diagnostics
             onward = max(self._tick + 1, ceil((self._clock.now() - start) * RATE_HZ - 1e-6))
             self._skipped += onward - self._tick - 1
             self._tick = onward
-        return found
+        return diagnostics
 
     def _send(self) -> None:
         now = self._clock.now()
@@ -120,10 +120,10 @@ class StreamedFlight:
         """Read all messages and advance every pilot; return what is wrong."""
         now = self._clock.now()
         self._keep_up(now)
-        found = [d for member in self._crew for d in member.pilot.step(self._tick, now)]
+        diagnostics = [d for member in self._crew for d in member.pilot.step(self._tick, now)]
         for member in self._crew:
             self._tell(member.pilot)
-        return [*found, *self._silent_targets(now)]
+        return [*diagnostics, *self._silent_targets(now)]
 
     def _keep_up(self, now: float) -> None:
         if now - self._beat >= BEAT_S:
@@ -142,15 +142,15 @@ class StreamedFlight:
 
     def _silent_targets(self, now: float) -> list[Diagnostic]:
         """Return a warning for every target that has just become silent."""
-        found = []
+        diagnostics = []
         for feed in self._feeds:
             silent = feed.position(now) is None
             if silent and feed.target not in self._stale:
-                found.append(faults.stale(feed.target, now - (feed.seen or 0.0)))
+                diagnostics.append(faults.stale(feed.target, now - (feed.seen or 0.0)))
                 self._stale.add(feed.target)
             elif not silent:
                 self._stale.discard(feed.target)
-        return found
+        return diagnostics
 
     def _hold(self) -> tuple[list[tuple[str, str]], list[Diagnostic]]:
         """Order every drone in the air to hold until it does, except drones that somebody else has taken
@@ -158,17 +158,17 @@ class StreamedFlight:
         """
         pilots = [member.pilot for member in self._crew if not member.pilot.taken]
         start = again = self._clock.now()
-        asked: dict[str, str] = {}
+        requests: dict[str, str] = {}
         while True:
             now = self._clock.now()
             self._keep_up(now)
             running = [pilot for pilot in pilots if not pilot.stopped(self._tick)]
             if not running or now - start > HOLD_S:
-                return list(asked.items()), [faults.not_holding(p.vehicle, HOLD_S) for p in running]
+                return list(requests.items()), [faults.not_holding(p.vehicle, HOLD_S) for p in running]
             if now >= again:
                 again = now + HOLD_AGAIN_S
                 for pilot in running:
-                    asked.update(self._ask_to_hold(pilot, known=pilot.name in asked))
+                    requests.update(self._ask_to_hold(pilot, known=pilot.name in requests))
             self._clock.wait_until(now + PERIOD_S)
 
     def _ask_to_hold(self, pilot: Pilot, *, known: bool) -> dict[str, str]:

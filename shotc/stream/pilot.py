@@ -259,10 +259,10 @@ class Pilot:
                 yield faults.late(self.vehicle, what)
 
     def _again(self, tick: int) -> bool:
-        due = tick - self._asked >= AGAIN_TICKS
-        if due:
+        is_time = tick - self._asked >= AGAIN_TICKS
+        if is_time:
             self._asked = tick
-        return due
+        return is_time
 
     def _go(self, stage: PilotStage, tick: int) -> None:
         self.stage, self._asked = stage, tick - AGAIN_TICKS

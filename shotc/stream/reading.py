@@ -35,7 +35,7 @@ def read(
     """Wait for all vehicles and read their answers; what does not arrive stays unknown."""
     start = now = clock.now()
     met: dict[str, float] = {}
-    beat = asked = start - 60.0
+    beat = requested = start - 60.0
     while not all(_done(vehicle, met.get(vehicle.drone), start, now) for vehicle in vehicles):
         if now - beat >= BEAT_S:
             beat = now
@@ -43,8 +43,8 @@ def read(
                 vehicle.link.heartbeat()
         for vehicle in vehicles:
             _meet(vehicle, met, now, note)
-        if now - asked >= AGAIN_S:
-            asked = now
+        if now - requested >= AGAIN_S:
+            requested = now
             for vehicle in vehicles:
                 _ask(vehicle)
         clock.wait_until(now + PERIOD_S)

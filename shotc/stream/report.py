@@ -39,7 +39,7 @@ def send_times(delays: list[float], skipped: int) -> SendTimes:
     return SendTimes(len(delays), skipped, late, median, p99, float(all_of.max()))
 
 
-def told(times: SendTimes) -> str:
+def timing_summary(times: SendTimes) -> str:
     """Return the summary as one line of text."""
     numbers = (
         f"median {times.median * 1e3:.2f} ms, 99 % {times.p99 * 1e3:.2f} ms, worst {times.worst * 1e3:.2f} ms"

@@ -93,19 +93,19 @@ class Session:
         addresses : by drone name
         targets : by target name
         """
-        found = [*unplaced(self.mission, self._plan), *unheard(self.mission, addresses)]
-        if has_errors(found):
-            return found
+        faults = [*unplaced(self.mission, self._plan), *unheard(self.mission, addresses)]
+        if has_errors(faults):
+            return faults
         for name, endpoint in addresses.items():
             autopilot = AUTOPILOTS[self.mission.drone(name).autopilot]
             try:
                 link = self._doors.link(endpoint, autopilot)
             except OSError as error:
-                found.append(_closed(f"drone `{name}`", endpoint, error, "--to"))
+                faults.append(_closed(f"drone `{name}`", endpoint, error, "--to"))
                 continue
             self._stack.callback(link.close)
             self.vehicles.append(VehicleStatus(name, autopilot, link))
-        return [*found, *self._open_feeds(targets)]
+        return [*faults, *self._open_feeds(targets)]
 
     def _open_feeds(self, targets: Mapping[str, Endpoint]) -> Iterator[Diagnostic]:
         assert self.mission.origin is not None
@@ -122,26 +122,26 @@ class Session:
         """Read and check every vehicle; return those that may fly, and all diagnostics."""
         read(self.vehicles, self._clock, self._note)
         aboard: list[Aboard] = []
-        found: list[Diagnostic] = []
+        diagnostics: list[Diagnostic] = []
         for vehicle in self.vehicles:
             who, faults = self._judge(vehicle)
-            found += faults
+            diagnostics += faults
             aboard += [who] if who is not None else []
-        return aboard, [*found, *self._mute_targets()]
+        return aboard, [*diagnostics, *self._mute_targets()]
 
     def _judge(self, vehicle: VehicleStatus) -> tuple[Aboard | None, list[Diagnostic]]:
         origin = self.mission.origin
         assert origin is not None
         ready = Ready(self.mission, self.mission.drone(vehicle.drone), vehicle)
-        found = checks.answered(ready)
+        diagnostics = checks.answered(ready)
         frame = checks.frame_of(ready, origin)
-        if found or frame is None:
-            return None, found
+        if diagnostics or frame is None:
+            return None, diagnostics
         track = next(t for t in self._plan.trajectory.drones if t.drone == vehicle.drone)
         course = course_of(track, origin, frame, vehicle.autopilot.lift)
-        found = [*checks.ready_to_fly(ready, origin, course), *zoomed(self.mission, track)]
-        found += filmed_instead(self.mission, track)
-        return (None if has_errors(found) else Aboard(ready, track, course)), found
+        diagnostics = [*checks.ready_to_fly(ready, origin, course), *zoomed(self.mission, track)]
+        diagnostics += filmed_instead(self.mission, track)
+        return (None if has_errors(diagnostics) else Aboard(ready, track, course)), diagnostics
 
     def _mute_targets(self) -> Iterator[Diagnostic]:
         """Wait for the first position of every target."""
@@ -237,8 +237,8 @@ def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
     """Yield a warning for every shot whose field of view changes."""
     for phase in track.phases:
         if phase.shot is not None:
-            begins, ends = track.curve.breaks[:-1], track.curve.breaks[1:]
-            inside = (begins < phase.end - SAME_TIME_S) & (ends > phase.start + SAME_TIME_S)
+            starts, ends = track.curve.breaks[:-1], track.curve.breaks[1:]
+            inside = (starts < phase.end - SAME_TIME_S) & (ends > phase.start + SAME_TIME_S)
             hfov = track.curve.ctrl[inside][..., HFOV]
             if np.ptp(hfov) > SAME_HFOV_RAD:
                 yield Diagnostic(

@@ -91,7 +91,7 @@ GOOD = {"kml": GOOD_TOUR, "blender-camera": BLENDER.encode(), "qgc": GOOD_PLAN, 
 
 
 def made(format: str, data: bytes, *, strict: bool = False, **asked: Any) -> Imported:
-    return imported(format, data, "file", strict=strict, asked=ImportOptions(**asked))
+    return imported(format, data, "file", strict=strict, options=ImportOptions(**asked))
 
 
 def assumed(result: Imported) -> list[tuple[int, str]]:

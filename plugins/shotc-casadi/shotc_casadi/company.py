@@ -91,14 +91,14 @@ def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tup
                 continue
             against = _against(path, moved, subject)
             if against is None and (plain is None or _near(subject, refined, plain[0])):
-                return _told(path, moved, refined, condition)
+                return _result(path, moved, refined, condition)
             if against in (None, IN_PICTURE) and prefers_free_pictures(subject.mission):
                 plain = plain or (refined, moved)
             why = against or IN_PICTURE
         course = path if tries == MOST_TRIES else moved
         task = task._replace(beside=_Passing(course, subject, flown_shot(course, shot)).half_spaces)
     if plain is not None:
-        return _told(path, plain[1], plain[0], condition)
+        return _result(path, plain[1], plain[0], condition)
     left = path if needs is None else with_need(path, shot, needs)
     return left, [unrefined(path, shot, why)]
 
@@ -120,7 +120,7 @@ def _in_its_time(subject: ShotContext) -> MovingLeg:
     return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 
 
-def _told(
+def _result(
     path: PathIR, moved: PathIR, refined: Refined, condition: AimCondition
 ) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with a refined shot, its statistics and its diagnostics."""

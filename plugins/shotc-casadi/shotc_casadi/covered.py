@@ -63,9 +63,9 @@ def broken(placed: PlacedShot, before: Free, after: Free) -> float:
     return max(losses)
 
 
-def _short(asked: float, before: float, after: float) -> float:
+def _short(required: float, before: float, after: float) -> float:
     """Return by how much a value misses what is asked, or the value before if that misses it too."""
-    return asked - after if before >= asked else before - after - LEAST_SHARE
+    return required - after if before >= required else before - after - LEAST_SHARE
 
 
 def lost_on_path(subject: ShotContext, camera: Piecewise) -> float:

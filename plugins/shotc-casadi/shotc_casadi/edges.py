@@ -32,7 +32,7 @@ def level_beside(subject: ShotContext, nodes: Stages, camera: Piecewise, given: 
     inside = insides(subject, references, s, q)
     away = np.linalg.norm(references.centre - q[:, :3], axis=1)
     half = fields_of_view(subject, s)[1]
-    rate, found = camera.derivative()(s), []
+    rate, indices = camera.derivative()(s), []
     for k in np.flatnonzero((references.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
         touches = inside[k] < LEAST_HALF_FRAMES
         slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(away[k]))[touches]
@@ -43,8 +43,8 @@ def level_beside(subject: ShotContext, nodes: Stages, camera: Piecewise, given: 
             unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS_COLUMN:])])
             by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
-            found.append(int(k))
-    return given._replace(through=s[found], slopes=rate[found])
+            indices.append(int(k))
+    return given._replace(through=s[indices], slopes=rate[indices])
 
 
 def _along(subject: ShotContext, camera: Piecewise, s: float, step: float) -> Array:

@@ -41,7 +41,7 @@ def _late(subject: ShotContext, camera: Piecewise) -> float:
     """Return by which share the fastest flight of this camera misses a time asked for."""
     drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
     leg = with_camera(drone, subject.leg, camera, ahead)
-    asked = due(leg)
-    if not asked or asked.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
+    deadlines = due(leg)
+    if not deadlines or deadlines.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
         return 0.0
     return lateness(drone, leg)

@@ -147,13 +147,13 @@ def _tried(
     if attempt.solution.status != "solved":
         return nothing
     try:
-        found = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given)
-        tried = nothing._replace(camera=found, check=checked(subject, condition, found))
+        turned = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given)
+        tried = nothing._replace(camera=turned, check=checked(subject, condition, turned))
     except (NoFit, NoTransit):
         return nothing
     if condition.visibility != "silhouette":
         return tried
-    level = level_beside(subject, nodes, found, given)
+    level = level_beside(subject, nodes, turned, given)
     return tried if not len(level.through) else _leveled(subject, condition, tried, (nodes, level))
 
 
@@ -163,11 +163,11 @@ def _leveled(
     """Return a round whose camera crops nothing beside keyframes, unless it is worse elsewhere."""
     nodes, given = to
     try:
-        found = camera(subject.drone, subject.leg, nodes, tried.attempt.solution.states, given)
-        check = checked(subject, condition, found)
+        turned = camera(subject.drone, subject.leg, nodes, tried.attempt.solution.states, given)
+        check = checked(subject, condition, turned)
     except (NoFit, NoTransit):
         return tried
-    return tried if check > tried.check else tried._replace(camera=found, check=check)
+    return tried if check > tried.check else tried._replace(camera=turned, check=check)
 
 
 def _result(subject: ShotContext, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
@@ -188,7 +188,7 @@ def _result(subject: ShotContext, nodes: Stages, done: list[_Tried], best: _Trie
     return Refined(*of, shows_less)
 
 
-def _widest(subject: ShotContext, found: Piecewise) -> UnprovedPlace:
-    lack = shortfall(subject.space, found.ctrl[:, :, :3])
+def _widest(subject: ShotContext, curve: Piecewise) -> UnprovedPlace:
+    lack = shortfall(subject.space, curve.ctrl[:, :, :3])
     k = int(lack.argmax())
-    return UnprovedPlace(float(found.breaks[k]), float(lack[k]))
+    return UnprovedPlace(float(curve.breaks[k]), float(lack[k]))

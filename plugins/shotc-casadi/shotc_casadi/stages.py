@@ -40,10 +40,10 @@ def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) 
     assert curve is not None
     pins = _pins(leg, placed)
     count = count or int(np.clip(STAGES_PER_INTERVAL * (len(pins) - 1), USUAL_STAGES, MOST_STAGES))
-    asked = due(leg)
-    fine, t = rough_times(drone, leg, 1.0 if asked else leg.pace)
-    if asked:
-        t = asked.kept(fine, t, leg.pace)
+    deadlines = due(leg)
+    fine, t = rough_times(drone, leg, 1.0 if deadlines else leg.pace)
+    if deadlines:
+        t = deadlines.kept(fine, t, leg.pace)
     knots = np.interp(pins, fine, t)
     shares = _shares(knots, count)
     parts = [

@@ -305,9 +305,9 @@ def _reach(up: Any, body: _Body, plane: tuple[Any, Any, int]) -> Any:
     plane : its components forward and along an axis, and the index of that axis
     """
     far = body.height / 2 * ca.sqrt(up**2 + 1e-8) + body.radius * ca.sqrt(1 - up**2 + 1e-6)
-    ahead, aside, axis = plane
+    ahead, lateral, axis = plane
     for side in body.sides:
-        far += rounded(ahead * side[AHEAD] + aside * side[axis], side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
+        far += rounded(ahead * side[AHEAD] + lateral * side[axis], side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
     return far
 
 
@@ -324,8 +324,8 @@ def _hull_points(body: _Body, x: Any) -> list[tuple[Any, Any, Any]]:
     for side in body.sides:
         part = (ahead * side[RIGHT] - right * side[AHEAD]) / level
         wide += rounded(part, side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
-    aside = wide / level
-    across, along = aside * ahead, -aside * right
+    lateral = wide / level
+    across, along = lateral * ahead, -lateral * right
     return [
         (right, up + half * cos, ahead + half * sin),
         (right, up - half * cos, ahead - half * sin),

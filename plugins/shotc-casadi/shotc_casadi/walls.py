@@ -50,12 +50,12 @@ def half_spaces(
         ]
     for k, row in zip(*((), ()) if others is None else others, strict=True):
         nodes[int(k)].append((_slack(hulls[k], row), row))
-    most = max(len(found) for found in nodes)
+    most = max(len(node) for node in nodes)
     count = next((c for c in COUNTS if c >= most), COUNTS[-1])
     out = np.zeros((len(s), count, 4))
     out[:, :, 3] = FREE_M
-    for k, found in enumerate(nodes):
-        nearest = sorted(found, key=lambda f: f[0])[:count]
+    for k, node in enumerate(nodes):
+        nearest = sorted(node, key=lambda f: f[0])[:count]
         for j, (_, row) in enumerate(nearest):
             out[k, j] = row
     return out

@@ -240,10 +240,10 @@ class WpmlMission:
         self._put(group, "actionGroupStartIndex", span[0])
         self._put(group, "actionGroupEndIndex", span[1])
         self._put(group, "actionGroupMode", mode)
-        begins = self._put(group, "actionTrigger")
-        self._put(begins, "actionTriggerType", trigger)
+        trigger_node = self._put(group, "actionTrigger")
+        self._put(trigger_node, "actionTriggerType", trigger)
         if every is not None:
-            self._put(begins, "actionTriggerParam", f"{every:g}")
+            self._put(trigger_node, "actionTriggerParam", f"{every:g}")
         return group
 
     def _action(self, group: ET.Element, ids: count[int], name: str) -> ET.Element:

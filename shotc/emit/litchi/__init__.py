@@ -47,8 +47,8 @@ class LitchiEmitter:
         made = emit_files(plan, FORMAT)
         if not made.artifacts:
             return made
-        told = without_waypoints(plan.trajectory.keyframes.mission, plan.trajectory.drones)
-        return replace(made, diagnostics=(*made.diagnostics, *told), notes=(*made.notes, SETTINGS))
+        lost = without_waypoints(plan.trajectory.keyframes.mission, plan.trajectory.drones)
+        return replace(made, diagnostics=(*made.diagnostics, *lost), notes=(*made.notes, SETTINGS))
 
 
 EMITTER = LitchiEmitter()

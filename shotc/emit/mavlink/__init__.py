@@ -74,7 +74,9 @@ class MavlinkEmitter:
             return Emission((), (*fleets, *others, no_origin(mission, self.name)))
         done = [_Job.of(mission, flight).emit() for flight in flown]
         ways = {
-            flight.drone: evenly(way) for flight, (_, way) in zip(flown, done, strict=True) if way is not None
+            flight.drone: evenly(positions)
+            for flight, (_, positions) in zip(flown, done, strict=True)
+            if positions is not None
         }
         meeting = [in_step(mission, each) for each in kept_apart_by_time(mission, ways, ())]
         emissions = [emission for emission, _ in done]
@@ -203,14 +205,14 @@ class _Job:
         return self._write(thinner.legs(_coarse(intended, high), even=False), coarser=True)
 
     def _write(self, legs: list[StraightLeg], *, coarser: bool) -> _Flight:
-        asked = steps_of(self.track, self.style, legs)
-        steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
+        intended = steps_of(self.track, self.style, legs)
+        steps = whole_seconds(intended) if self.dialect.whole_seconds else intended
         speeds = DEFAULTS[self.drone.autopilot]
         photos = {s.id: s.photos for s in self.mission.shots if s.photos is not None}
         builder = Builder(
             self.drone, self.style, self.dialect, self.geo, speeds, photos=photos, focus=self.focus
         )
-        return _Flight(builder.build(self.track, steps), asked, steps, coarser)
+        return _Flight(builder.build(self.track, steps), intended, steps, coarser)
 
 
 def _coarse(intended: Tolerance, degree: float) -> Tolerance:

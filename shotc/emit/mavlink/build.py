@@ -146,15 +146,15 @@ class Builder:
         if step.duration == 0:
             return
         limits = self.drone.limits if self.dialect.vertical_speeds else None
-        wanted = adapted(self.speeds, limits, step.across, step.rise, step.duration)
+        speeds = adapted(self.speeds, limits, step.across, step.rise, step.duration)
         for kind, new, old in (
-            (SPEED_GROUND, wanted.ground, self.speeds.ground),
-            (SPEED_CLIMB, wanted.climb, self.speeds.climb),
-            (SPEED_DESCENT, wanted.descent, self.speeds.descent),
+            (SPEED_GROUND, speeds.ground, self.speeds.ground),
+            (SPEED_CLIMB, speeds.climb, self.speeds.climb),
+            (SPEED_DESCENT, speeds.descent, self.speeds.descent),
         ):
             if new != old:
                 self.items.append(action(CHANGE_SPEED, float(kind), new, -1.0))
-        self.speeds = wanted
+        self.speeds = speeds
 
     def _aim(self, command: Command) -> bool:
         last = self.aimed

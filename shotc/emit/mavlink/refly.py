@@ -91,22 +91,24 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     if pilot.drone.autopilot == "px4":
         pilot.yaw_goal = yaw_of(radians(_number(params[3])))
     target = _point(pilot, params)
-    way = target - pilot.position
-    length = float(np.linalg.norm(way))
-    moving = seconds(pilot.speeds, hypot(way[0], way[1]), float(way[2]))
+    step = target - pilot.position
+    length = float(np.linalg.norm(step))
+    moving = seconds(pilot.speeds, hypot(step[0], step[1]), float(step[2]))
     hold = _number(params[0])
     start = pilot.position
     if moving > 0:
         count = min(MOST_STEPS, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
         share = np.linspace(0.0, 1.0, count + 1)
-        _log(pilot, start + share[:, None] * way, share * moving, share * max(length, moving * STAY_PACE_M_S))
+        _log(
+            pilot, start + share[:, None] * step, share * moving, share * max(length, moving * STAY_PACE_M_S)
+        )
     pilot.position = target
     if hold > 0:
         share = np.linspace(0.0, 1.0, min(MOST_STEPS, max(2, ceil(hold / STEP_TIME))) + 1)
         _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE_M_S)
 
 
-def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
+def _log(pilot: _Pilot, position: Array, time: Array, progress: Array) -> None:
     body = _slew(pilot.yaw, pilot.yaw_goal, pilot.turn_rate, time)
     if pilot.roi is not None:
         if turns_body(pilot.drone):
@@ -120,11 +122,11 @@ def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
     part = np.full(len(time), float(pilot.part))
     rate = 0.0 if pilot.drone.lens is None else pilot.drone.lens.rate
     hfov = _slew(pilot.hfov, pilot.hfov_goal, rate, time)
-    columns = [body, cam_yaw, pitch, part, pilot.progress + way, pilot.elapsed + time, hfov]
+    columns = [body, cam_yaw, pitch, part, pilot.progress + progress, pilot.elapsed + time, hfov]
     pilot.rows.append(np.column_stack([position, *columns]))
     pilot.yaw, pilot.pitch, pilot.hfov = float(body[-1]), float(pitch[-1]), float(hfov[-1])
     pilot.pan = float(cam_yaw[-1] if pilot.earth else pan[-1])
-    pilot.progress += float(way[-1])
+    pilot.progress += float(progress[-1])
     pilot.elapsed += float(time[-1])
 
 

@@ -117,17 +117,17 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
     )
 
 
-def sidenotes(drone: Drone, asked: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
+def sidenotes(drone: Drone, intended: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
     """Return notes for the pilot on how this autopilot flies the file."""
-    return [*_flown(drone, asked, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
+    return [*_flown(drone, intended, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
 
 
-def _flown(drone: Drone, asked: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
+def _flown(drone: Drone, intended: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
     if drone.autopilot == "ardupilot":
         text = (
             f"ardupilot {drone.name}: set WP_YAW_BEHAVIOR to 0, or every waypoint turns the body to the path"
         )
-        off = [abs(a.hold - b.hold) for a, b in zip(asked, flown, strict=True)]
+        off = [abs(a.hold - b.hold) for a, b in zip(intended, flown, strict=True)]
         worst = max(off, default=0.0)
         rounded = f"ardupilot {drone.name}: holds are whole seconds, off by up to {at_least(worst, 1)} s"
         return [text, rounded] if worst >= 0.05 else [text]

@@ -58,7 +58,7 @@ def adapted(now: Speeds, limits: Limits | None, across: float, rise: float, dura
     return replace(speeds, climb=in_force) if rise > 0 else replace(speeds, descent=in_force)
 
 
-def _changed(now: float, wanted: float) -> float:
-    wanted = max(round(wanted, 2), SLOWEST_M_S)
-    ratio = wanted / now if now > 0 else inf
-    return wanted if abs(ratio - 1) > SPEED_DIFFERENCE_SHARE else now
+def _changed(now: float, speed: float) -> float:
+    speed = max(round(speed, 2), SLOWEST_M_S)
+    ratio = speed / now if now > 0 else inf
+    return speed if abs(ratio - 1) > SPEED_DIFFERENCE_SHARE else now

@@ -84,7 +84,7 @@ def _step(
     track: SampledFlight, style: Style, leg: StraightLeg, following: StraightLeg | None
 ) -> WaypointStep:
     points, time = track.poses.position, track.time
-    way = points[leg.last] - points[leg.first]
+    step = points[leg.last] - points[leg.first]
     command = command_of(track.poses, leg.first, leg.last, filmed=leg.shot is not None)
     region = region_of(style, track, slice(leg.first, leg.last + 1), leg.shot)
     elapsed = float(time[leg.last] - time[leg.first])
@@ -96,9 +96,9 @@ def _step(
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
     # Autopilots do not fly slower than SLOWEST_M_S: the drone arrives early and waits.
-    hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST_M_S)
+    hold = max(0.0, elapsed - float(np.linalg.norm(step)) / SLOWEST_M_S)
     hold = max(hold, SETTLE_S) if stops and boundary else hold
-    return WaypointStep(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
+    return WaypointStep(leg, command, region, hypot(step[0], step[1]), float(step[2]), elapsed, hold, radius)
 
 
 def _joins(track: SampledFlight, style: Style, before: WaypointStep, stay: WaypointStep) -> bool:
@@ -128,11 +128,11 @@ def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float
     A circle tangent to both legs at distance r from the corner has radius r / tan(turn / 2). Flown at speed
     v, it needs the acceleration v^2 tan(turn / 2) / r, and it misses the corner by r tan(turn / 4).
     """
-    way, onward = corner - before, after - corner
-    lengths = float(np.linalg.norm(way)), float(np.linalg.norm(onward))
+    ingoing, onward = corner - before, after - corner
+    lengths = float(np.linalg.norm(ingoing)), float(np.linalg.norm(onward))
     if min(lengths) < 2 * RADIUS_LEAST:
         return RADIUS_LEAST
-    turn = acos(float(np.clip(way @ onward / (lengths[0] * lengths[1]), -1.0, 1.0)))
+    turn = acos(float(np.clip(ingoing @ onward / (lengths[0] * lengths[1]), -1.0, 1.0)))
     speed = lengths[0] / elapsed
     at_speed = speed**2 * tan(min(turn, 0.9 * pi) / 2) / CORNER_M_S2
     uncut = CORNER_CUT_M / max(tan(turn / 4), 1e-6)

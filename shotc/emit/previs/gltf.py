@@ -107,15 +107,15 @@ class _File:
         self.views.append(view if target is None else {**view, "target": target})
         self.data += stored.tobytes()
         wide = stored.reshape(len(stored), -1)
-        told: dict[str, Any] = {
+        accessor: dict[str, Any] = {
             "bufferView": len(self.views) - 1,
             "componentType": UNSIGNED if kind.kind == "u" else FLOAT,
             "count": len(stored),
             "type": SHAPES[wide.shape[1]],
         }
         if bounds:
-            told |= {"min": wide.min(axis=0).tolist(), "max": wide.max(axis=0).tolist()}
-        self.accessors.append(told)
+            accessor |= {"min": wide.min(axis=0).tolist(), "max": wide.max(axis=0).tolist()}
+        self.accessors.append(accessor)
         return len(self.accessors) - 1
 
     def animate(self, times: int, values: Array, target: dict[str, Any]) -> None:

@@ -197,10 +197,10 @@ def _camera(name: tuple[str, str], camera: CameraSamples) -> Iterator[str]:
 def _moved(places: Array, turns: Array) -> list[str]:
     """Return the transform of a prim: positions, then quaternions, whose real part USD writes first."""
     where = (PLACE % (i, *row) for i, row in enumerate((places + 0.0).tolist()))
-    way = (TURN % (i, *row) for i, row in enumerate((turns[:, [3, 0, 1, 2]] + 0.0).tolist()))
+    orientations = (TURN % (i, *row) for i, row in enumerate((turns[:, [3, 0, 1, 2]] + 0.0).tolist()))
     return [
         f"double3 xformOp:translate.timeSamples = {{{', '.join(where)}}}",
-        f"quatd xformOp:orient.timeSamples = {{{', '.join(way)}}}",
+        f"quatd xformOp:orient.timeSamples = {{{', '.join(orientations)}}}",
         'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:orient"]',
     ]
 

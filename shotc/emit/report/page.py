@@ -44,23 +44,24 @@ class Simulated(NamedTuple):
 
 def page(plan: VerifiedIR, simulated: Simulated | None = None) -> str:
     """Return the HTML document."""
-    mission, found = plan.trajectory.keyframes.mission, volumes(plan.trajectory)
+    mission, site = plan.trajectory.keyframes.mission, volumes(plan.trajectory)
     near = nearness(plan.trajectory)
     sections = (
-        ("Flight", _table(_facts(plan, found))),
+        ("Flight", _table(_facts(plan, site))),
         ("Aircraft", _table(_aircraft(mission), _AIRCRAFT)),
-        ("Site", _site(mission, found)),
+        ("Site", _site(mission, site)),
         ("Requirements", _requirements(plan.certificate)),
         ("Nearest pairs", _pairs(near)),
-        ("On the ground", _table(_ground(plan, found))),
+        ("On the ground", _table(_ground(plan, site))),
         ("When the link is lost", _list(_link(plan))),
         ("Wind", _list(_wind(mission, simulated)) + _flown(simulated)),
         ("Not judged", _list(_open(mission))),
     )
     title = f"{escape(mission.name)}: validation report"
-    told = [(name, content) for name, content in sections if content]
+    present = [(name, content) for name, content in sections if content]
     body = "\n".join(
-        f"<section><h2>{i}. {name}</h2>\n{content}\n</section>" for i, (name, content) in enumerate(told, 1)
+        f"<section><h2>{i}. {name}</h2>\n{content}\n</section>"
+        for i, (name, content) in enumerate(present, 1)
     )
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
@@ -76,7 +77,7 @@ def _verdict(plan: VerifiedIR) -> str:
     return f'<p class="verdict">{text}, as shotc {escape(__version__)} has verified them.</p>'
 
 
-def _facts(plan: VerifiedIR, found: Volumes) -> Iterator[Row]:
+def _facts(plan: VerifiedIR, site: Volumes) -> Iterator[Row]:
     flown, mission = plan.trajectory, plan.trajectory.keyframes.mission
     yield "mission", mission.name
     yield "mission file", f"SHA-256 {mission.source_sha256}"
@@ -90,8 +91,8 @@ def _facts(plan: VerifiedIR, found: Volumes) -> Iterator[Row]:
             f"{place.lat_deg:.7f}, {place.lon_deg:.7f} deg (WGS84), {place.alt:g} m above sea level",
         )
     yield "in the air", f"{flown.end:.1f} s from the first motion to the last"
-    yield "greatest height", f"{found.flight.top - found.ground:.1f} m over the lowest pad, bodies included"
-    far = float(np.linalg.norm(found.flight.corners, axis=1).max())
+    yield "greatest height", f"{site.flight.top - site.ground:.1f} m over the lowest pad, bodies included"
+    far = float(np.linalg.norm(site.flight.corners, axis=1).max())
     yield "farthest from the origin", f"{far:.1f} m"
 
 
@@ -126,19 +127,19 @@ def _aircraft(mission: MissionIR) -> Iterator[Row]:
         )
 
 
-def _site(mission: MissionIR, found: Volumes) -> str:
+def _site(mission: MissionIR, site: Volumes) -> str:
     rows = [
-        ("flight geography", "hull of all flights, bodies included", found.flight),
+        ("flight geography", "hull of all flights, bodies included", site.flight),
         (
             "contingency volume",
-            f"{found.across:.1f} m across and {found.upright:.1f} m upright about it",
-            found.contingency,
+            f"{site.across:.1f} m across and {site.upright:.1f} m upright about it",
+            site.contingency,
         ),
-        ("ground risk buffer", f"{found.buffer:.1f} m about that, as wide as it is high (1:1)", found.risk),
+        ("ground risk buffer", f"{site.buffer:.1f} m about that, as wide as it is high (1:1)", site.risk),
     ]
     table = _table(
         (
-            (name, about, f"{outline.area:.0f} m²", _height(outline.top - found.ground))
+            (name, about, f"{outline.area:.0f} m²", _height(outline.top - site.ground))
             for name, about, outline in rows
         ),
         ("volume", "margin", "area", "height"),
@@ -148,25 +149,25 @@ def _site(mission: MissionIR, found: Volumes) -> str:
         '<p class="legend"><span class="flight"></span> flight geography <span class="contingency"></span> '
         'contingency volume <span class="risk"></span> ground risk buffer <span class="out"></span> zones</p>'
     )
-    corners = _table(_corners(mission, found), ("fence", "latitude, deg", "longitude, deg"))
+    corners = _table(_corners(mission, site), ("fence", "latitude, deg", "longitude, deg"))
     about = (
         f"<p>Margins: {OFF_ACROSS_M:g} m for the error of the position and {OFF_UPRIGHT_M:g} m for that of "
         f"the height, {REACTION_S:g} s of reaction at the greatest allowed speed, and the stopping distance. "
         "These are proposals from assumed constants; the authority decides. The geofence is the contingency "
         "volume.</p>"
     )
-    return "\n".join([site_map(mission, found), legend, table, about, corners, zones])
+    return "\n".join([site_map(mission, site), legend, table, about, corners, zones])
 
 
 def _height(metres: float) -> str:
     return f"{metres:.1f} m" if metres > 0.0 else "on the ground"
 
 
-def _corners(mission: MissionIR, found: Volumes) -> Iterator[Row]:
+def _corners(mission: MissionIR, site: Volumes) -> Iterator[Row]:
     """Yield two corners of the geofence's bounding box in latitude and longitude, for a ground station."""
     if mission.origin is None:
         return
-    (west, south), (east, north) = (f(found.contingency.corners, axis=0) for f in (np.min, np.max))
+    (west, south), (east, north) = (f(site.contingency.corners, axis=0) for f in (np.min, np.max))
     for name, x, y in (("southwest", west, south), ("northeast", east, north)):
         lat, lon, _ = of_world(np.array([[x, y, 0.0]]), mission.origin)[0].tolist()
         yield f"{name} corner of a box about it", f"{lat:.7f}", f"{lon:.7f}"
@@ -192,7 +193,7 @@ def _claim(claim: Claim) -> Row:
     worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     if not claim.holds:
         worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
-    asked = f"{'≤' if claim.upper else '≥'} {limit}" if isfinite(claim.limit) else "no limit"
+    limit_text = f"{'≤' if claim.upper else '≥'} {limit}" if isfinite(claim.limit) else "no limit"
     state = (
         ("holds" if isfinite(claim.limit) else "") if claim.holds else "BROKEN" if claim.hard else "missed"
     )
@@ -200,29 +201,29 @@ def _claim(claim: Claim) -> Row:
     return (
         state,
         claim.constraint,
-        asked,
+        limit_text,
         worst if isfinite(claim.worst) else "no value",
         "" if claim.time is None else f"{claim.time:.1f}{GLUE}s",
         f"{WAYS[claim.method]}{who}",
     )
 
 
-def _pairs(found: Sequence[Nearness]) -> str:
+def _pairs(pairs: Sequence[Nearness]) -> str:
     about = (
         "<p>The distance of the nearest two drones of a fleet, in the measure of its separation (heights "
         f"scaled by their ratio), at {SAMPLED_TIMES + 1} instants. The separation is proved at every "
         "instant, also between these: see separation above.</p>"
     )
-    plots = [f"<h3>{escape(each.fleet)}</h3>\n{nearness_plot(each)}" for each in found]
+    plots = [f"<h3>{escape(each.fleet)}</h3>\n{nearness_plot(each)}" for each in pairs]
     return "\n".join([about, *plots]) if plots else ""
 
 
-def _ground(plan: VerifiedIR, found: Volumes) -> Iterator[Row]:
+def _ground(plan: VerifiedIR, site: Volumes) -> Iterator[Row]:
     mission = plan.trajectory.keyframes.mission
     rules = mission.rules
     yield (
         "height of the contingency volume",
-        f"{found.contingency.top - found.ground:.1f} m over the lowest pad",
+        f"{site.contingency.top - site.ground:.1f} m over the lowest pad",
     )
     if rules.max_height is not None and isfinite(rules.max_height):
         yield "greatest height allowed", f"{rules.max_height:g} m above ground"
@@ -234,18 +235,18 @@ def _ground(plan: VerifiedIR, found: Volumes) -> Iterator[Row]:
         yield f"target {target.name}", f"{moves}; drones keep {rules.target_clearance:g} m from it"
     for display in mission.displays:
         if display.viewpoint is not None:
-            away = _from_audience(found, (display.viewpoint[0], display.viewpoint[1]))
+            away = _from_audience(site, (display.viewpoint[0], display.viewpoint[1]))
             yield f"audience of {display.id}", away
 
 
-def _from_audience(found: Volumes, seat: tuple[float, float]) -> str:
+def _from_audience(site: Volumes, seat: tuple[float, float]) -> str:
     """Return the position of an audience relative to the volumes, in words."""
     names = ("flight geography", "contingency volume", "ground risk buffer")
-    outlines = (found.flight, found.contingency, found.risk)
+    outlines = (site.flight, site.contingency, site.risk)
     for name, outline in zip(names, outlines, strict=True):
         if _beyond(outline.corners, seat) <= 0.0:
             return f"stands inside the {name}"
-    return f"at least {_beyond(found.risk.corners, seat):.1f} m outside the ground risk buffer"
+    return f"at least {_beyond(site.risk.corners, seat):.1f} m outside the ground risk buffer"
 
 
 def _beyond(corners: np.ndarray, seat: tuple[float, float]) -> float:

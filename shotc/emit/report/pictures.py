@@ -18,11 +18,11 @@ MARGIN_SHARE = 0.05
 LEFT, RIGHT, BOTTOM, TOP = 46.0, 12.0, 30.0, 12.0
 
 
-def site_map(mission: MissionIR, found: Volumes) -> str:
+def site_map(mission: MissionIR, volumes: Volumes) -> str:
     """Return the map with volumes, zones, pads, audiences and a scale bar, North up."""
     seats = [display.viewpoint for display in mission.displays if display.viewpoint is not None]
     zones = [(zone, ground_plan(zone.solid)) for zone in mission.zones]
-    risk = found.risk.corners
+    risk = volumes.risk.corners
     seen = np.concatenate([risk, *(np.array([seat[:2]]) for seat in seats)])
     low, high = seen.min(axis=0), seen.max(axis=0)
     scale = (1.0 - 2.0 * MARGIN_SHARE) * min(WIDTH / (high - low)[0], MAP_HEIGHT / (high - low)[1])
@@ -35,7 +35,11 @@ def site_map(mission: MissionIR, found: Volumes) -> str:
     def area(outline: AreaOutline, kind: str) -> str:
         return f'<polygon class="{kind}" points="{_points(put(outline.corners))}"/>'
 
-    parts = [area(found.risk, "risk"), area(found.contingency, "contingency"), area(found.flight, "flight")]
+    parts = [
+        area(volumes.risk, "risk"),
+        area(volumes.contingency, "contingency"),
+        area(volumes.flight, "flight"),
+    ]
     for zone, corners in zones:
         parts.append(f'<polygon class="zone {zone.keep}" points="{_points(put(corners))}"/>')
         x, y = put(corners).mean(axis=0)[0], put(corners)[:, 1].min() - 4.0
@@ -73,17 +77,17 @@ def _north() -> str:
     return f'<path class="north" d="M{x} 10 l6 20 l-6 -4 l-6 4 z"/><text x="{x - 4}" y="44">N</text>'
 
 
-def nearness_plot(found: Nearness) -> str:
+def nearness_plot(pair: Nearness) -> str:
     """Return the plot of the nearest pair's distance over time, with the separation."""
-    end = float(found.times[-1]) or 1.0
-    most = 1.15 * max(float(np.median(found.distances)), 2.0 * found.needed)
+    end = float(pair.times[-1]) or 1.0
+    most = 1.15 * max(float(np.median(pair.distances)), 2.0 * pair.needed)
     across, up = (WIDTH - LEFT - RIGHT) / end, (PLOT_HEIGHT - TOP - BOTTOM) / most
 
     def put(times: Array, values: Array) -> Array:
         return np.column_stack([LEFT + times * across, PLOT_HEIGHT - BOTTOM - np.minimum(values, most) * up])
 
     floor_y = PLOT_HEIGHT - BOTTOM
-    ((_, needed_y),) = put(np.zeros(1), np.array([found.needed])).tolist()
+    ((_, needed_y),) = put(np.zeros(1), np.array([pair.needed])).tolist()
     parts = [f'<path class="axis" d="M{LEFT} {TOP} V{floor_y} H{WIDTH - RIGHT}"/>']
     for time in _ticks(end):
         x = LEFT + time * across
@@ -94,10 +98,10 @@ def nearness_plot(found: Nearness) -> str:
         parts.append(f'<path class="grid" d="M{LEFT} {y:.1f} H{WIDTH - RIGHT}"/>')
         parts.append(f'<text x="{LEFT - 5}" y="{y + 4:.1f}" text-anchor="end">{value:g} m</text>')
     parts.append(f'<path class="needed" d="M{LEFT} {needed_y:.1f} H{WIDTH - RIGHT}"/>')
-    label = f'y="{needed_y + 13:.1f}" text-anchor="end">kept: {found.needed:g} m</text>'
+    label = f'y="{needed_y + 13:.1f}" text-anchor="end">kept: {pair.needed:g} m</text>'
     parts.append(f'<text x="{WIDTH - RIGHT - 4}" {label}')
-    parts.append(f'<polyline class="curve" points="{_points(put(found.times, found.distances))}"/>')
-    return _svg(PLOT_HEIGHT, parts, f"Nearest pair of {found.fleet} over time")
+    parts.append(f'<polyline class="curve" points="{_points(put(pair.times, pair.distances))}"/>')
+    return _svg(PLOT_HEIGHT, parts, f"Nearest pair of {pair.fleet} over time")
 
 
 def _ticks(most: float) -> list[float]:

@@ -63,8 +63,8 @@ def log_motion(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, frustum: 
             _composition(stream, plan, flight, phase)
     error = _screen_plot(plan, flight, t)
     motion = motion_plots(flight, drone, t)
-    room = clearance_plot(flight, drone, mission, t)
-    plots = (*motion, room) if error is None else (error, *motion, room)
+    clearance = clearance_plot(flight, drone, mission, t)
+    plots = (*motion, clearance) if error is None else (error, *motion, clearance)
     for plot in plots:
         log_plot(stream, drone.name, plot, t)
     return plots
@@ -181,8 +181,8 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     _centre(stream, f"{entity}/centre", ticks, projected(mission, flight, target.name, ticks))
     if span.reference is not None:
         cross = _cross(drone.aspect)
-        wanted = [part + point for point in span.reference(ticks) for part in cross]
-        _strips(stream, f"{entity}/wanted", ticks, wanted, [len(cross)] * len(ticks))
+        reference = [part + point for point in span.reference(ticks) for part in cross]
+        _strips(stream, f"{entity}/wanted", ticks, reference, [len(cross)] * len(ticks))
         _style(stream, f"{entity}/wanted", rgba8(CAMERA), 1.4)
 
 
@@ -268,8 +268,8 @@ def _screen_plot(plan: VerifiedIR, flight: DroneTrajectory, t: Array) -> Plot | 
     error, promise = np.full(len(t), np.nan), np.full(len(t), np.nan)
     for shot, target in dict.fromkeys((span.shot, span.target) for span in flight.framing):
         inside = framed(flight, shot, target, t)
-        found = screen_track(plan, flight, (shot, target), t[inside]).error
-        error[inside] = np.fmax(error[inside], found)
+        errors = screen_track(plan, flight, (shot, target), t[inside]).error
+        error[inside] = np.fmax(error[inside], errors)
         if shots[shot].promise.screen_error is not None:
             promise[inside] = shots[shot].promise.screen_error
     if np.isnan(error).all():

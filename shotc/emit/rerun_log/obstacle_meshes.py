@@ -26,12 +26,12 @@ def log_meshes(stream: Any, mission: MissionIR) -> None:
         colors = np.round(255.0 * solid.colors).astype(np.uint8)
         if not points.all():
             flat = solid.triangles[: len(triangles) - int(points.sum())].reshape(-1, 3)
-            told = rr.Mesh3D(
+            mesh3d = rr.Mesh3D(
                 vertex_positions=flat.astype(np.float32),
                 triangle_indices=np.arange(len(flat), dtype=np.uint32).reshape(-1, 3),
                 vertex_colors=np.repeat(colors[: len(flat) // 3], 3, axis=0),
             )
-            stream.log(f"{STANDING}/{mesh.kind}", told, static=True)
+            stream.log(f"{STANDING}/{mesh.kind}", mesh3d, static=True)
         if points.any():
             cloud = rr.Points3D(triangles[points, 0], radii=mesh.spacing, colors=[rgba8(STONE)])
             stream.log(f"{STANDING}/{mesh.kind}/points", cloud, static=True)

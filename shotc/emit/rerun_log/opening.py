@@ -82,8 +82,8 @@ def _toward(k: int) -> Array:
 def _camera(flight: DroneTrajectory, time: float, *, ahead: bool) -> Array:
     pose = flight.curve(time)
     yaw, pitch = float(pose[CAM_YAW]), float(pose[CAM_PITCH])
-    way = np.array([cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)])
-    return np.array([pose[:3], pose[:3] + (AHEAD_M if ahead else 0.0) * way])
+    direction = np.array([cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)])
+    return np.array([pose[:3], pose[:3] + (AHEAD_M if ahead else 0.0) * direction])
 
 
 def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]:

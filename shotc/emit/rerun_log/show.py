@@ -61,8 +61,8 @@ def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, st
         title = f"Picture {number} of {len(pictures)} of `{shown.display}`"
         heads.append((shown.start, f"{title}\n{kind}, {shown.start:.1f} s to {shown.end:.1f} s"))
         if number < len(pictures):
-            way = f"On the way to picture {number + 1} of `{shown.display}`"
-            heads.append((shown.end, f"{way}\nfrom {shown.end:.1f} s"))
+            heading = f"On the way to picture {number + 1} of `{shown.display}`"
+            heads.append((shown.end, f"{heading}\nfrom {shown.end:.1f} s"))
     return heads
 
 

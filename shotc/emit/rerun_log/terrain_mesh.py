@@ -17,10 +17,10 @@ COLOR = rgba8(shade(GROUND, 0.62))
 def log_terrain(stream: Any, ground: Ground) -> None:
     """Log the ground, without a time."""
     mesh = mesh_of(ground.surface.triangles)
-    told = rr.Mesh3D(
+    mesh3d = rr.Mesh3D(
         vertex_positions=mesh.corners,
         vertex_normals=mesh.normals,
         triangle_indices=mesh.faces,
         albedo_factor=COLOR,
     )
-    stream.log(TERRAIN, told, static=True)
+    stream.log(TERRAIN, mesh3d, static=True)

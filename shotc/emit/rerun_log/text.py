@@ -50,8 +50,8 @@ def certificate_text(certificate: tuple[Claim, ...]) -> str:
     for claim in order:
         what = claim.constraint if claim.shot is None else f"{claim.constraint} ({claim.shot})"
         when = "" if claim.time is None else f"{claim.time:.1f} s"
-        asked = _asked(claim)
-        cells = (verdict(claim), what, asked, quantity(claim.worst, claim.unit), when, HOW[claim.method])
+        limit = _limit(claim)
+        cells = (verdict(claim), what, limit, quantity(claim.worst, claim.unit), when, HOW[claim.method])
         rows.append(f"| {' | '.join(cells)} |")
     return "\n".join(rows)
 
@@ -66,7 +66,7 @@ def _rank(claim: Claim) -> int:
     return 1 if claim.shot is None else 2
 
 
-def _asked(claim: Claim) -> str:
+def _limit(claim: Claim) -> str:
     sign = "≤" if claim.upper else "≥"
     return f"{sign} {quantity(claim.limit, claim.unit)}" if isfinite(claim.limit) else "–"
 

@@ -133,12 +133,12 @@ def _motion(stream: Any, target: Target, last: float) -> None:
         indexes=[rr.TimeColumn("t", duration=times)],
         columns=columns,
     )
-    way = rr.LineStrips3D(
+    strips = rr.LineStrips3D(
         [away + np.array(target.centre)],
         radii=rr.Radius.ui_points(0.8),
         colors=[rgba8(shade(SUBJECT, 1.2), 0.6)],
     )
-    stream.log(f"world/tracks/{target.name}", way, static=True)
+    stream.log(f"world/tracks/{target.name}", strips, static=True)
 
 
 class Carried(NamedTuple):

@@ -107,14 +107,14 @@ def _mark(folder: Element, name: str, style: str = "", about: str = "") -> Eleme
     return mark
 
 
-def _volumes(folder: Element, origin: GeoOrigin, found: Volumes) -> None:
-    flight, margin = found.flight, found.contingency
-    high = f"up to {flight.top - found.ground:.1f} m over the lowest pad; the hull of all flights"
+def _volumes(folder: Element, origin: GeoOrigin, site: Volumes) -> None:
+    flight, margin = site.flight, site.contingency
+    high = f"up to {flight.top - site.ground:.1f} m over the lowest pad; the hull of all flights"
     _polygon(_mark(folder, "flight geography", "flight", high), origin, flight)
-    wide = f"{found.across:.1f} m across and {found.upright:.1f} m upright about the flight geography"
+    wide = f"{site.across:.1f} m across and {site.upright:.1f} m upright about the flight geography"
     _polygon(_mark(folder, "contingency volume", "contingency", wide), origin, margin)
-    ground = f"{found.buffer:.1f} m about the contingency volume, as wide as that is high (1:1)"
-    _polygon(_mark(folder, "ground risk buffer", "risk", ground), origin, found.risk, flat=True)
+    ground = f"{site.buffer:.1f} m about the contingency volume, as wide as that is high (1:1)"
+    _polygon(_mark(folder, "ground risk buffer", "risk", ground), origin, site.risk, flat=True)
 
 
 def _zones(folder: Element, mission: MissionIR, origin: GeoOrigin) -> None:

@@ -246,25 +246,25 @@ class Canvas:
         """The smallest readable size of text in the file, points."""
         return LEAST_CAPITAL_PX / CAPITAL_RATIO * 72.0 / float(self._figure.dpi)
 
-    def fitted(self, text: str, style: Type, room: float) -> Fitted:
-        """Return a text that is at most ``room`` inches wide.
+    def fitted(self, text: str, style: Type, limit: float) -> Fitted:
+        """Return a text that is at most ``limit`` inches wide.
 
         The text is made smaller, down to the smallest readable size, and then shortened.
         """
         width = self.extent(text, style)[0]
-        if width <= room:
+        if width <= limit:
             return Fitted(text, style, width)
-        size = style.size * 0.99 * max(room, 0.0) / width
+        size = style.size * 0.99 * max(limit, 0.0) / width
         style = replace(style, size=min(style.size, max(size, self.least_size)))
         shorter = text
-        while (width := self.extent(shorter, style)[0]) > room and len(shorter) > 1:
-            kept = min(len(shorter) - 2, int(len(shorter) * room / width))
+        while (width := self.extent(shorter, style)[0]) > limit and len(shorter) > 1:
+            kept = min(len(shorter) - 2, int(len(shorter) * limit / width))
             shorter = shorter[: max(kept, 0)].rstrip(" ,·") + ELLIPSIS
         return Fitted(shorter, style, width)
 
-    def write(self, x: float, y: float, text: str, style: Type, room: float) -> float:
-        """Write one line of text at most ``room`` inches wide, and return its width."""
-        fitted = self.fitted(text, style, room)
+    def write(self, x: float, y: float, text: str, style: Type, width: float) -> float:
+        """Write one line of text at most ``width`` inches wide, and return its width."""
+        fitted = self.fitted(text, style, width)
         self.text(x, y, fitted.text, fitted.style)
         return fitted.width
 

@@ -16,7 +16,7 @@ def composition_text(placed: PlacedShot) -> str:
     Examples are "thirds (center)" and "one left-third; other right-third"; it is "" if nothing is framed.
     """
     words: dict[str, dict[str, list[str]]] = {}
-    for target, composition, reference in _wanted(placed):
+    for target, composition, reference in _references(placed):
         flown = words.setdefault(target, {}).setdefault(composition.name, [])
         place = _place(composition, reference)
         if place and place not in flown:
@@ -27,7 +27,7 @@ def composition_text(placed: PlacedShot) -> str:
     return "; ".join(f"{target} {text}" for target, text in said.items())
 
 
-def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
+def _references(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
     # Only what the composition pass chose counts: between keyframes a reference also passes other places.
     shot = placed.shot
     if not placed.keyframes:

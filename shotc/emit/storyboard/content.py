@@ -121,8 +121,8 @@ def _board(
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     flown = plan.trajectory
-    asked = from_what_was_asked(flown.keyframes.mission, flown.deviations)
-    deviations = [d for d in asked if d.shot == shot.id]
+    generated = from_what_was_asked(flown.keyframes.mission, flown.deviations)
+    deviations = [d for d in generated if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(
         shot=shot,

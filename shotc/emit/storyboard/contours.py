@@ -64,9 +64,9 @@ class PlanRelief:
         """Heights of the bold, labelled contours, shape (n,)."""
         for every in (LABELLED_EVERY, 2):
             number = np.round(self.levels / self.step) if self.step else self.levels
-            found = self.levels[number % every == 0]
-            if len(found) >= 2:
-                return np.asarray(found)
+            levels = self.levels[number % every == 0]
+            if len(levels) >= 2:
+                return np.asarray(levels)
         return self.levels
 
     @property
@@ -75,8 +75,8 @@ class PlanRelief:
         a, b = self.nodes[:-1, :-1], self.nodes[:-1, 1:]
         c, d = self.nodes[1:, 1:], self.nodes[1:, :-1]
         both = [np.stack(corners, axis=2).reshape(-1, 3, 3) for corners in ((a, b, c), (a, c, d))]
-        found = np.concatenate(both)
-        return np.asarray(found[np.isfinite(found[..., 2]).all(axis=1)])
+        cells = np.concatenate(both)
+        return np.asarray(cells[np.isfinite(cells[..., 2]).all(axis=1)])
 
 
 def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
@@ -87,8 +87,8 @@ def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
     y = sheet.centre[1] + np.linspace(-half[1], half[1], rows)
     plan = np.stack(np.meshgrid(x, y), axis=-1)
     z = height_at(ground, plan.reshape(-1, 2)).reshape(rows, columns)
-    found = z[np.isfinite(z)]
-    rise = float(np.ptp(found)) if found.size else 0.0
+    heights = z[np.isfinite(z)]
+    rise = float(np.ptp(heights)) if heights.size else 0.0
     step = max(round_length(rise / CONTOUR_COUNT), LEAST_STEP_M) if rise > LEAST_STEP_M else 0.0
     return PlanRelief(np.concatenate([plan, z[..., None]], axis=-1), step)
 
@@ -96,9 +96,9 @@ def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
 def draw_relief(canvas: Canvas, sheet: Sheet, relief: PlanRelief) -> None:
     """Draw hillshade and contours; the sheet is unchanged where there is no ground."""
     canvas.image(_pixels(relief), sheet.box)
-    triangles, told = relief.triangles, relief.told
+    triangles, bold_levels = relief.triangles, relief.told
     for level in relief.levels:
-        bold = level in told
+        bold = level in bold_levels
         ends = contour(triangles, float(level))
         if len(ends):
             color = (*shade(GROUND, 0.45), 0.8 if bold else 0.55)
@@ -143,10 +143,10 @@ def contour_heights(
         width, height = canvas.extent(text, style)
         spots = sheet.at(contour(triangles, float(level))).mean(axis=1)
         for x, y in spots[np.argsort(np.linalg.norm(spots - middle, axis=1), kind="stable")]:
-            room = PageRectangle(float(x) - width / 2, float(y) - height / 2, width, height)
-            if inner.holds(room) and not any(room.meets(other) for other in [*taken, *rooms]):
+            rectangle = PageRectangle(float(x) - width / 2, float(y) - height / 2, width, height)
+            if inner.holds(rectangle) and not any(rectangle.meets(other) for other in [*taken, *rooms]):
                 canvas.text(float(x), float(y), text, style)
-                rooms.append(room)
+                rooms.append(rectangle)
                 break
     return rooms
 
@@ -163,8 +163,8 @@ def profile(sheet: Sheet, ground: Ground, through: Array) -> Array:
 
 def profile_at(axes: Array, ground: Ground, through: Array, along: Array) -> Array:
     """Return ``profile`` at positions (n,) along the first of two axes (2, 3), metres, shape (n, 2)."""
-    way = axes[0, :2]
-    xy = through + (along - through @ way)[:, None] * way
+    direction = axes[0, :2]
+    xy = through + (along - through @ direction)[:, None] * direction
     return np.column_stack([along, height_at(ground, xy)])
 
 

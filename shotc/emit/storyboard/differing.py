@@ -34,8 +34,8 @@ def draw_differences(comparison: Comparison, dpi: float) -> bytes:
 
 
 def _page(comparison: Comparison, dpi: float) -> bytes:
-    mission, found = comparison.mission, comparison.differences
-    sizes = [picture_size(mission.drone(mission.shot(each.shot).drone).aspect) for each in found]
+    mission, differences = comparison.mission, comparison.differences
+    sizes = [picture_size(mission.drone(mission.shot(each.shot).drone).aspect) for each in differences]
     heights = [NAMES + height + caption_height(CELL) + FACTS_HEIGHT_IN for _, height in sizes]
     width, height = 2 * MARGIN + 2 * (CELL + GAP) - GAP, HEADING + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
@@ -43,28 +43,31 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
     text = "where two refiners differ most: metres between cameras plus degrees between where they look"
     canvas.write(MARGIN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN)
     top = height - HEADING
-    for each, size, used in zip(found, sizes, heights, strict=True):
+    for each, size, used in zip(differences, sizes, heights, strict=True):
         _row(canvas, comparison, each, (top, size))
         top -= used
     return canvas.png()
 
 
 def _row(
-    canvas: Canvas, comparison: Comparison, found: ShotDifference, at: tuple[float, tuple[float, float]]
+    canvas: Canvas, comparison: Comparison, difference: ShotDifference, at: tuple[float, tuple[float, float]]
 ) -> None:
     """Draw two pictures side by side.
 
     at : top of the row, and size of a picture, inches
     """
     top, (width, height) = at
-    for column, (name, time) in enumerate(((found.condition, found.time), (found.other, found.other_time))):
+    for column, (name, time) in enumerate(
+        ((difference.condition, difference.time), (difference.other, difference.other_time))
+    ):
         left = MARGIN + column * (CELL + GAP)
         each = next(c for c in comparison.conditions if c.name == name)
         assert each.plan is not None
-        shot = next(s for s in each.shots if s.id == found.shot)
-        canvas.write(left, top - 0.3, f"{name}, {found.shot}", Type(13, INK, bold=True), CELL)
+        shot = next(s for s in each.shots if s.id == difference.shot)
+        canvas.write(left, top - 0.3, f"{name}, {difference.shot}", Type(13, INK, bold=True), CELL)
         picture = PageRectangle(left, top - NAMES - height, width, height)
         draw_moment(canvas, Cell(picture, CELL), each.plan, moment_at(each.plan, shot, time, column + 1))
-    facts = f"{found.metres:.2f} m and {found.degrees:.1f} deg apart; mean of their sum {found.mean:.2f}"
+    apart = f"{difference.metres:.2f} m and {difference.degrees:.1f} deg apart"
+    facts = f"{apart}; mean of their sum {difference.mean:.2f}"
     base = top - NAMES - height - caption_height(CELL) - 0.02
     canvas.write(MARGIN, base, facts, Type(8.5, INK), 2 * CELL + GAP)

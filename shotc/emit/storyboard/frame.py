@@ -104,7 +104,7 @@ def _marks(
     taken: list[PageRectangle] = []
     if subject.reference is not None:
         if subject.asked is not None and subject.is_moved:
-            _asked(canvas, shown, subject.asked, subject.reference)
+            _requested(canvas, shown, subject.asked, subject.reference)
             x, y = (float(c) for c in shown.place(np.array(subject.asked)))
             taken.append(PageRectangle(x - 0.07, y - 0.07, 0.14, 0.14))
         x, y = _cross(canvas, shown, subject.reference)
@@ -142,8 +142,8 @@ def _cross(canvas: Canvas, shown: PictureRectangle, at: Vec2) -> Vec2:
     return x, y
 
 
-def _asked(canvas: Canvas, shown: PictureRectangle, asked: Vec2, reference: Vec2) -> None:
-    ends = shown.place(np.array([asked, reference]))
+def _requested(canvas: Canvas, shown: PictureRectangle, requested: Vec2, reference: Vec2) -> None:
+    ends = shown.place(np.array([requested, reference]))
     canvas.lines([ends], (*WHITE, 0.9), 1.0, shown.box, dash=(2.0, 2.0))
     x, y = ends[0]
     diamond = np.array([[x - 0.06, y], [x, y - 0.06], [x + 0.06, y], [x, y + 0.06]])

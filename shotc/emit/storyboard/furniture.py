@@ -33,7 +33,7 @@ def corner(
         x = box.x + 0.07 if across == "left" else box.right - 0.07 - size[0]
         y = box.y + 0.07 if up == "low" else box.top - 0.07 - size[1]
         rooms.append(PageRectangle(x, y, *size))
-    return min(rooms, key=lambda room: sum(room.meets(other) for other in content))
+    return min(rooms, key=lambda rectangle: sum(rectangle.meets(other) for other in content))
 
 
 def scale_bar(
@@ -47,23 +47,25 @@ def scale_bar(
     width = length * sheet.inches
     text, style = f"{length:g} m · grid {step:g} m", Type(7.5, INK)
     text += f" · contours {contours:g} m" if contours else ""
-    room = corner(sheet.box, (max(width, canvas.extent(text, style)[0]) + 0.12, 0.31), LOWER_FIRST, content)
-    x, y = room.x + 0.06, room.y + 0.07
-    canvas.polygons([room.outline()], (*GROUND_FAR, 0.85))
+    rectangle = corner(
+        sheet.box, (max(width, canvas.extent(text, style)[0]) + 0.12, 0.31), LOWER_FIRST, content
+    )
+    x, y = rectangle.x + 0.06, rectangle.y + 0.07
+    canvas.polygons([rectangle.outline()], (*GROUND_FAR, 0.85))
     for i, face in enumerate((INK, WHITE)):
         canvas.polygons([PageRectangle(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
     canvas.text(x, y + 0.09, text, style)
-    return room
+    return rectangle
 
 
 def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
     """Draw the North arrow of a plan; return its rectangle."""
-    room = corner(sheet.box, (0.3, 0.52), UPPER_FIRST, content)
-    x, y = room.x + 0.15, room.y + 0.14
+    rectangle = corner(sheet.box, (0.3, 0.52), UPPER_FIRST, content)
+    x, y = rectangle.x + 0.15, rectangle.y + 0.14
     canvas.polygons([np.array([[x, y + 0.17], [x - 0.07, y - 0.1], [x, y - 0.05]])], INK)
     canvas.polygons([np.array([[x, y + 0.17], [x + 0.07, y - 0.1], [x, y - 0.05]])], WHITE, INK, 0.7)
     canvas.text(x, y + 0.19, "N", Type(8, INK, bold=True, across="center"))
-    return room
+    return rectangle
 
 
 def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
@@ -72,10 +74,10 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) ->
     heading = round(np.degrees(heading_of(float(np.arctan2(east, -north))))) % 360
     text, style = f"side view, looking {heading:03d}°", Type(7.5, QUIET)
     width, height = canvas.extent(text, style)
-    room = corner(sheet.box, (width + 0.1, height + 0.06), UPPER_FIRST, content)
-    canvas.polygons([room.outline()], (*PAPER, 0.7))
-    canvas.text(room.x + 0.05, room.y + 0.05, text, style)
-    return room
+    rectangle = corner(sheet.box, (width + 0.1, height + 0.06), UPPER_FIRST, content)
+    canvas.polygons([rectangle.outline()], (*PAPER, 0.7))
+    canvas.text(rectangle.x + 0.05, rectangle.y + 0.05, text, style)
+    return rectangle
 
 
 def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> list[PageRectangle]:
@@ -93,10 +95,10 @@ def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> li
         y = float(sheet.at(np.array([0.0, k * step]))[1])
         text = f"{k * step:g} m".replace("-", "−")
         width = canvas.extent(text, style)[0]
-        room = PageRectangle(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
-        if box.holds(room):
-            canvas.polygons([room.outline()], (*SKY_LOW, 0.85))
+        rectangle = PageRectangle(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
+        if box.holds(rectangle):
+            canvas.polygons([rectangle.outline()], (*SKY_LOW, 0.85))
             canvas.lines([np.array([[box.right - 0.08, y], [box.right, y]])], INK, 0.8)
             canvas.text(box.right - 0.12, y, text, style)
-            rooms.append(room)
+            rooms.append(rectangle)
     return rooms

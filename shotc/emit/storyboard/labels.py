@@ -54,14 +54,14 @@ def write_labels(
     for label in labels:
         style = Type(label.size, label.color, label.bold, "center", "bottom", halo=WHITE)
         size = canvas.extent(label.text, style)
-        room = free_room(size, inner, label, (full, avoid))
-        if room is None and (room := nearest_room(size, inner, label.thing, full)) is not None:
-            leader(canvas, room, label.thing, label.color)
-        if room is None:
+        rectangle = free_room(size, inner, label, (full, avoid))
+        if rectangle is None and (rectangle := nearest_room(size, inner, label.thing, full)) is not None:
+            leader(canvas, rectangle, label.thing, label.color)
+        if rectangle is None:
             lost.append(label.text)
             continue
-        canvas.text(room.x + room.width / 2, room.y, label.text, style)
-        full.append(room)
+        canvas.text(rectangle.x + rectangle.width / 2, rectangle.y, label.text, style)
+        full.append(rectangle)
     return lost
 
 
@@ -96,10 +96,10 @@ def nearest_room(
     return PageRectangle(float(x[best]), float(y[best]), width, height)
 
 
-def leader(canvas: Canvas, room: PageRectangle, thing: PageRectangle, color: Rgb) -> None:
+def leader(canvas: Canvas, rectangle: PageRectangle, thing: PageRectangle, color: Rgb) -> None:
     """Draw the line from a label to its object, between their nearest points."""
     x, y = _middle(thing)
-    start = min(max(x, room.x), room.right), min(max(y, room.y), room.top)
+    start = min(max(x, rectangle.x), rectangle.right), min(max(y, rectangle.y), rectangle.top)
     end = min(max(start[0], thing.x), thing.right), min(max(start[1], thing.y), thing.top)
     canvas.lines([np.array([start, end])], (*WHITE, 0.9), 2.0)
     canvas.lines([np.array([start, end])], color, 0.8)
@@ -123,15 +123,18 @@ def free_room(
     width, height = size
     roomy = label.inside and label.thing.width > 1.3 * width and label.thing.height > 4 * height
     sides = ("on", *label.sides) if roomy else label.sides
-    rooms = [room for side in sides if inner.holds(room := _beside(label.thing, side, size))]
-    free = [room for room in rooms if not _meets(room, taken)]
-    return next((room for room in free if not _meets(room, avoid)), free[0] if free else None)
+    rooms = [rectangle for side in sides if inner.holds(rectangle := _beside(label.thing, side, size))]
+    free = [rectangle for rectangle in rooms if not _meets(rectangle, taken)]
+    return next((rectangle for rectangle in free if not _meets(rectangle, avoid)), free[0] if free else None)
 
 
-def _meets(room: PageRectangle, others: Sequence[PageRectangle]) -> bool:
+def _meets(rectangle: PageRectangle, others: Sequence[PageRectangle]) -> bool:
     # The distance is a little less than the label's gap from its own object, which may be among the others.
     wide = PageRectangle(
-        room.x - 0.9 * GAP_IN, room.y - 0.9 * GAP_IN, room.width + 1.8 * GAP_IN, room.height + 1.8 * GAP_IN
+        rectangle.x - 0.9 * GAP_IN,
+        rectangle.y - 0.9 * GAP_IN,
+        rectangle.width + 1.8 * GAP_IN,
+        rectangle.height + 1.8 * GAP_IN,
     )
     return any(wide.meets(other) for other in others)
 

@@ -141,8 +141,8 @@ def _tracks(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) 
     times = np.linspace(board.start, board.end, 60)
     for target in mission.targets:
         if target.track is not None:
-            way = sheet.place(np.array([target.at(float(t)) for t in times]))
-            canvas.lines([way], (*shade(SUBJECT, 0.75), 0.9), 1.1, sheet.box, dash=(1.5, 1.5))
+            line = sheet.place(np.array([target.at(float(t)) for t in times]))
+            canvas.lines([line], (*shade(SUBJECT, 0.75), 0.9), 1.1, sheet.box, dash=(1.5, 1.5))
 
 
 def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
@@ -191,17 +191,19 @@ def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) ->
     for share in (0.3, 0.8):
         at = _clear_of(strip, marks, int(np.searchsorted(length, share * length[-1])))
         step = strip[at] - strip[max(at - 2, 0)]
-        way = step / max(float(np.linalg.norm(step)), 1e-9)
-        side = np.array([-way[1], way[0]])
-        tip = strip[at] + 0.09 * way
-        head = np.array([tip, strip[at] - 0.07 * way + 0.075 * side, strip[at] - 0.07 * way - 0.075 * side])
+        direction = step / max(float(np.linalg.norm(step)), 1e-9)
+        side = np.array([-direction[1], direction[0]])
+        tip = strip[at] + 0.09 * direction
+        head = np.array(
+            [tip, strip[at] - 0.07 * direction + 0.075 * side, strip[at] - 0.07 * direction - 0.075 * side]
+        )
         canvas.polygons([head], CAMERA, INK, 0.7, sheet.box)
 
 
 def _clear_of(strip: Array, marks: Array, start: int) -> int:
     """Return the index of the point on a path nearest to ``start`` that no frame number covers."""
-    room = np.linalg.norm(strip[:, None] - marks, axis=-1).min(axis=1)
-    free = np.flatnonzero(room > 2.2 * NUMBER_RADIUS_IN)
+    distance = np.linalg.norm(strip[:, None] - marks, axis=-1).min(axis=1)
+    free = np.flatnonzero(distance > 2.2 * NUMBER_RADIUS_IN)
     free = free[(free > 2) & (free < len(strip) - 3)]
     return int(free[np.argmin(np.abs(free - start))]) if len(free) else start
 
@@ -259,10 +261,10 @@ def _spot(sheet: Sheet, moment: StoryboardFrame, taken: list[PageRectangle]) -> 
     rooms = (_square(np.array(s), NUMBER_RADIUS_IN) for s in spots)
     free = (r for r in rooms if sheet.box.holds(r) and not any(r.meets(other) for other in taken))
     place = _square(np.array((x, y)), 0.0)
-    room = next(free, None) or nearest_room(
+    rectangle = next(free, None) or nearest_room(
         (2 * NUMBER_RADIUS_IN, 2 * NUMBER_RADIUS_IN), sheet.box, place, taken, 0.0
     )
-    return (x, y) if room is None else (room.x + NUMBER_RADIUS_IN, room.y + NUMBER_RADIUS_IN)
+    return (x, y) if rectangle is None else (rectangle.x + NUMBER_RADIUS_IN, rectangle.y + NUMBER_RADIUS_IN)
 
 
 def _square(at: Array, half: float) -> PageRectangle:

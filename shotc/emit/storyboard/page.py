@@ -75,10 +75,10 @@ def band_height(board: ShotBoard) -> float:
 def layout(aspect: float, shots: int) -> ShotLayout:
     """Return the layout of shots with one aspect ratio, on a page of some number of shots."""
     map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY_SHOTS else (3.0, 4, 2.4)
-    room = WIDTH - 2 * MARGIN - map_width - 0.35
-    width = min((room + GAP) / columns - GAP, tallest * aspect)
+    width_left = WIDTH - 2 * MARGIN - map_width - 0.35
+    width = min((width_left + GAP) / columns - GAP, tallest * aspect)
     cell = max(width, 1.7)
-    columns = int((room + GAP + 1e-9) / (cell + GAP))
+    columns = int((width_left + GAP + 1e-9) / (cell + GAP))
     return ShotLayout(map_width, (width, width / aspect), cell, columns)
 
 
@@ -227,7 +227,9 @@ def _shot(
 
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     base = top - band_height(board) + 0.20
-    end = min((_told(canvas, base, i, board) for i in range(len(board.framing))), default=WIDTH - MARGIN)
+    end = min(
+        (_framing_text(canvas, base, i, board) for i in range(len(board.framing))), default=WIDTH - MARGIN
+    )
     end -= 0.25
     x = MARGIN + canvas.write(MARGIN, base, board.shot.id, Type(15, INK, bold=True), 4.0) + 0.22
     text = "  ·  ".join(_facts(board))
@@ -236,7 +238,7 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
         canvas.write(x + 0.25, base, board.note, Type(9.5, KEEP_OUT), end - x - 0.25)
 
 
-def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
+def _framing_text(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
     """Write the framing of one of a shot's subjects, the last subject lowest; return the left end of the
     text.
     """
@@ -289,8 +291,8 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
     text, proof = "   ·   ".join(parts), headline(certificate)
     bold = Type(10, INK, bold=True, across="right")
     canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
-    room = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
-    canvas.write(MARGIN, 0.42, text, Type(10, INK), room)
+    width_left = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
+    canvas.write(MARGIN, 0.42, text, Type(10, INK), width_left)
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:

@@ -91,12 +91,12 @@ def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
     Without a subject to its side, the camera looks to the right in the view.
     """
     first = board.moments[0]
-    way = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
+    direction = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
     if first.targets:
         toward = np.subtract(mission.target(first.targets[0]).centre[:2], board.path[:, :2].mean(axis=0))
         away = float(np.hypot(*toward))
-        way = toward / away if away > 1.0 else way
-    return np.array([[*way, 0.0], [0.0, 0.0, 1.0]])
+        direction = toward / away if away > 1.0 else direction
+    return np.array([[*direction, 0.0], [0.0, 0.0, 1.0]])
 
 
 def outline(axes: Array, solid: Solid) -> Array:

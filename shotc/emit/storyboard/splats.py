@@ -151,11 +151,11 @@ def _in_view(triangles: Array, project: Project) -> Mask:
     """
     if not len(triangles):
         return np.zeros(0, dtype=bool)
-    begins = np.arange(0, len(triangles), BLOCK_TRIANGLES)
+    starts = np.arange(0, len(triangles), BLOCK_TRIANGLES)
     ends = np.stack(
         [
-            np.minimum.reduceat(lowest(triangles), begins, axis=0),
-            np.maximum.reduceat(highest(triangles), begins, axis=0),
+            np.minimum.reduceat(lowest(triangles), starts, axis=0),
+            np.maximum.reduceat(highest(triangles), starts, axis=0),
         ]
     )
     corners = np.stack([ends[[i, j, k], :, [0, 1, 2]].T for i, j, k in _CORNERS], axis=1)

@@ -167,8 +167,8 @@ class Chooser:
     def _length(self, gap: StationInterval) -> float:
         return float(self.way[gap.last] - self.way[gap.first])
 
-    def _at(self, way: float) -> int:
-        return int(np.searchsorted(self.way, way))
+    def _at(self, metres: float) -> int:
+        return int(np.searchsorted(self.way, metres))
 
     def _cuts(self, stations: list[Station], owners: Index, scores: list[Array]) -> dict[int, int]:
         """Return the samples for new points, by leg: one for each part that is beyond its bounds.
@@ -248,8 +248,8 @@ class Chooser:
         """
         first = np.searchsorted(leg, leg)
         last = np.searchsorted(leg, leg, side="right") - 1
-        way = self.way[samples]
-        share = (way - way[first]) / np.maximum(way[last] - way[first], 1e-9)
+        metres = self.way[samples]
+        share = (metres - metres[first]) / np.maximum(metres[last] - metres[first], 1e-9)
         ruler = (flown.share + np.arange(len(flown.way))[:, None]).ravel()
         at = np.interp(share + leg, ruler, np.arange(len(ruler)))
         low = np.clip(np.floor(at).astype(int), leg * flown.way.shape[1], (leg + 1) * flown.way.shape[1] - 2)
@@ -306,9 +306,9 @@ def chooser_of(
 ) -> Chooser:
     """Return the chooser of one drone's track."""
     steps = np.linalg.norm(np.diff(track.poses.position, axis=0), axis=1)
-    way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE_M_S * 0.01 * np.diff(track.time))))
+    metres = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE_M_S * 0.01 * np.diff(track.time))))
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
-    return Chooser(track, drone, obstacles, shapes, way, planned, halts, lens)
+    return Chooser(track, drone, obstacles, shapes, metres, planned, halts, lens)
 
 
 def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], Index]:

@@ -205,12 +205,12 @@ def _nearest_of(points: Array, expected: Array, position: Array, progress: Array
     width = max(1, int((high - low).max()))
     window = np.clip(low[:, None] + np.arange(width), 0, len(position) - 2)
     start = position[window]
-    way = position[window + 1] - start
+    span = position[window + 1] - start
     offset = points[:, None, :] - start
-    length2 = np.einsum("nwk,nwk->nw", way, way)
-    along = np.einsum("nwk,nwk->nw", offset, way)
+    length2 = np.einsum("nwk,nwk->nw", span, span)
+    along = np.einsum("nwk,nwk->nw", offset, span)
     share = np.clip(np.where(length2 > 0, along / np.where(length2 > 0, length2, 1.0), 0.0), 0.0, 1.0)
-    miss = offset - share[..., None] * way
+    miss = offset - share[..., None] * span
     lag = progress[window] + share * (progress[window + 1] - progress[window]) - expected[:, None]
     cost = np.einsum("nwk,nwk->nw", miss, miss) + (ORDER_WEIGHT * lag) ** 2
     best = cost.argmin(axis=1)

@@ -77,16 +77,16 @@ def _vehicle(drone: Drone, safety: Safety) -> str:
     if safety.link_lost is None and safety.return_height is None:
         names = "NAV_DLL_ACT, NAV_RCL_ACT, RTL_RETURN_ALT" if px4 else "FS_GCS_ENABLE, FS_THR_ENABLE, RTL_ALT"
         return f"{text}: {names}"
-    wanted = [] if safety.link_lost is None else [(_PX4 if px4 else _ARDUPILOT)[safety.link_lost]]
+    behaviour = [] if safety.link_lost is None else [(_PX4 if px4 else _ARDUPILOT)[safety.link_lost]]
     if safety.return_height is not None:
         height = safety.return_height
-        wanted.append(f"RTL_RETURN_ALT to {height:g} m" if px4 else f"RTL_ALT to {100 * height:.0f} cm")
-    return f"{text}: set {', and '.join(wanted)}"
+        behaviour.append(f"RTL_RETURN_ALT to {height:g} m" if px4 else f"RTL_ALT to {100 * height:.0f} cm")
+    return f"{text}: set {', and '.join(behaviour)}"
 
 
 def _app(drone: Drone, safety: Safety) -> str:
     name = f"{drone.autopilot} {drone.name}"
     text = f"{name}: the app's settings decide what happens when the link is lost, not the table"
-    wanted = [] if safety.link_lost is None else [f"`{safety.link_lost}`"]
-    wanted += [] if safety.return_height is None else [f"a return at {safety.return_height:g} m"]
-    return f"{text}: set {' and '.join(wanted)}" if wanted else text
+    behaviour = [] if safety.link_lost is None else [f"`{safety.link_lost}`"]
+    behaviour += [] if safety.return_height is None else [f"a return at {safety.return_height:g} m"]
+    return f"{text}: set {' and '.join(behaviour)}" if behaviour else text

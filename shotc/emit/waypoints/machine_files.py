@@ -85,24 +85,24 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
     """Return the files of all drones that fly a format, with warnings and the error that it adds."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
-    told = list(report.fleetless(mission, ir.fleets, form.emitter))
+    diagnostics = list(report.fleetless(mission, ir.fleets, form.emitter))
     flights, notes, others = report.flown_here(mission, ir.drones, form.emitter, form.machines)
-    told += others
+    diagnostics += others
     if not flights:
-        return Emission((), tuple(told))
+        return Emission((), tuple(diagnostics))
     if mission.origin is None:
-        return Emission((), (*told, report.no_origin(mission, form.emitter)))
+        return Emission((), (*diagnostics, report.no_origin(mission, form.emitter)))
     jobs = [_Job.of(mission, flight, form) for flight in flights]
     written = [job.written() for job in jobs]
     ways = {f.drone: w.ways for f, w in zip(flights, written, strict=True)}
     meeting = kept_apart_by_time(mission, ways, [f for f in ir.drones if f.drone not in ways])
-    told += [report.meets(mission, each, ways) for each in meeting]
+    diagnostics += [report.meets(mission, each, ways) for each in meeting]
     refused = {name for each in meeting for name in each.names}
     emissions = [job.emission(each) for job, each in zip(jobs, written, strict=True)]
     kept = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]
     return Emission(
         tuple(a for e in kept for a in e.artifacts),
-        (*told, *(d for e in kept for d in e.diagnostics)),
+        (*diagnostics, *(d for e in kept for d in e.diagnostics)),
         (*notes, *(n for e in kept for n in e.notes)),
     )
 
@@ -172,7 +172,7 @@ class _Job:
         """Return for each station the standing target that the camera looks straight at during the whole
         shot, or None.
         """
-        found: list[GeoPosition | None] = [None] * len(stations)
+        places: list[GeoPosition | None] = [None] * len(stations)
         for each in (s for s in self.track.stretches if s.shot is not None):
             inside = [i for i, s in enumerate(stations) if each.first <= s.first and s.last <= each.last]
             target, at = self.track.subject[each.first : each.last + 1], [stations[i].first for i in inside]
@@ -181,8 +181,8 @@ class _Job:
             if np.ptp(target, axis=0).max() < SAME_PLACE_M and np.abs(off).max(initial=0.0) < STRAIGHT_RAD:
                 place = self.geo.places(target[:1])[0]
                 for i in inside:
-                    found[i] = place
-        return found
+                    places[i] = place
+        return places
 
     def emission(self, written: _Written) -> Emission:
         """Return the files with notes and warnings; no files if they come too near to an obstacle."""
@@ -191,7 +191,7 @@ class _Job:
         if faults:
             return Emission((), tuple(faults))
         error = self._error(written.route)
-        told = [
+        diagnostics = [
             *not_carried,
             *report.filmed_instead(self.mission, self.flight, self.form.emitter, written.photographed),
             *report.beyond(self.mission, self.flight, self.track, error),
@@ -201,10 +201,10 @@ class _Job:
         notes = report.notes(self.drone, files, len(written.route.position), error, self._models)
         safety = self.drone.safety
         if safety is not None and safety.rally:
-            told.append(report.no_rally(self.mission, self.drone, self.form.emitter))
+            diagnostics.append(report.no_rally(self.mission, self.drone, self.form.emitter))
         highest = float(written.route.position[:, 2].max()) - self.drone.home[2]
         link = link_notes(self.drone, return_height(highest, safety), written=self.form.says_link_lost)
-        return Emission(written.artifacts, tuple(told), (*notes, *report.by_hand(self.drone), *link))
+        return Emission(written.artifacts, tuple(diagnostics), (*notes, *report.by_hand(self.drone), *link))
 
     @property
     def _models(self) -> int:
@@ -230,7 +230,7 @@ class _Job:
         """Return a fault for each obstacle that a re-flight comes nearer to than the plan, under the worst
         curve.
         """
-        found: list[Diagnostic] = []
+        faults: list[Diagnostic] = []
         for obstacle, planned in zip(self.obstacles, self.chooser.planned, strict=True):
             held = max(float(planned.max()), 0.0)
             places = [legs.reshape(-1, 3) for legs in written.legs]
@@ -246,15 +246,15 @@ class _Job:
             away = np.linalg.norm(self.track.poses.position - place, axis=1)
             time = float(self.track.time[int(away.argmin())])
             owner = owner_of(obstacle, place)
-            found.append(report.broken(self.mission, self.drone, owner, depth, time))
-        return found
+            faults.append(report.broken(self.mission, self.drone, owner, depth, time))
+        return faults
 
     def _between(self, route: Route, obstacle: Obstacle, allowed: float) -> tuple[Array, float] | None:
         """Return a violation between samples under any of the curves; None if it is proved that there is
         none.
         """
-        found = (nearer_between(obstacle, shape.cubics(route), allowed) for shape in self.form.shapes)
-        return next((each for each in found if each is not None), None)
+        nearer = (nearer_between(obstacle, shape.cubics(route), allowed) for shape in self.form.shapes)
+        return next((each for each in nearer if each is not None), None)
 
 
 def _photos(mission: MissionIR, track: SampledFlight) -> dict[str, Photos]:
@@ -262,7 +262,7 @@ def _photos(mission: MissionIR, track: SampledFlight) -> dict[str, Photos]:
 
     Formats state photo intervals for legs, so a drone that stands would take none.
     """
-    found: dict[str, Photos] = {}
+    by_station: dict[str, Photos] = {}
     for name in dict.fromkeys(s.shot for s in track.stretches if s.shot is not None):
         photos = mission.shot(name).photos
         numbers = [i for i, s in enumerate(track.stretches) if s.shot == name]
@@ -270,8 +270,8 @@ def _photos(mission: MissionIR, track: SampledFlight) -> dict[str, Photos]:
         beside = [track.stretches[i].shot for i in around]
         rests = any(track.stretches[i].rest for i in numbers)
         if photos is not None and not rests and not any(beside):
-            found[name] = photos
-    return found
+            by_station[name] = photos
+    return by_station
 
 
 def _worst_shot(errors: list[ShotError]) -> ShotError:
@@ -292,9 +292,9 @@ def _parted(route: Route) -> Route:
     """
     position = route.position.copy()
     for i in range(1, len(position)):
-        way = position[i - 1] - position[i]
+        step = position[i - 1] - position[i]
         if np.linalg.norm(position[:i] - position[i], axis=1).min() < SAME_PLACE_M:
-            position[i] += ASIDE_M * way / max(float(np.linalg.norm(way)), ASIDE_M)
+            position[i] += ASIDE_M * step / max(float(np.linalg.norm(step)), ASIDE_M)
     return replace(route, position=position)
 
 

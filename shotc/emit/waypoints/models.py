@@ -149,13 +149,13 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
     times = times_of(route, legs, turning.ramp)
     share = turned(route, legs, times, turning)
     rows: list[Array] = []
-    part, way, now, hfov = 0.0, 0.0, 0.0, np.nan
+    part, metres, now, hfov = 0.0, 0.0, 0.0, np.nan
     for i in range(len(route.position)):
         for action in route.actions[i]:
             if action.kind == "stay":
                 stay = _stay(route, legs, i, action.seconds)
-                rows.append(_stamped(stay, part, way, now, hfov))
-                way, now = way + action.seconds * STAY_PACE_M_S, now + action.seconds
+                rows.append(_stamped(stay, part, metres, now, hfov))
+                metres, now = metres + action.seconds * STAY_PACE_M_S, now + action.seconds
             elif action.kind == "zoom":
                 hfov = hfov if lens is None else shown_by(lens, action)
             else:
@@ -164,8 +164,8 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
             yaw = route.yaw[i] + share[i] * (route.yaw[i + 1] - route.yaw[i])
             pitch = route.pitch[i] + share[i] * (route.pitch[i + 1] - route.pitch[i])
             leg = np.column_stack([legs.position[i], yaw, pitch, legs.way[i], times[i]])
-            rows.append(_stamped(leg, part, way, now, hfov))
-            way, now = way + float(legs.way[i, -1]), now + float(times[i, -1])
+            rows.append(_stamped(leg, part, metres, now, hfov))
+            metres, now = metres + float(legs.way[i, -1]), now + float(times[i, -1])
     table = np.concatenate(rows)
     yaw, pitch, progress, elapsed, film, shown = table[:, 3:].T
     return ReflownSamples(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)
@@ -187,9 +187,9 @@ def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
     )
 
 
-def _stamped(rows: Array, part: float, way: float, now: float, hfov: float) -> Array:
+def _stamped(rows: Array, part: float, metres: float, now: float, hfov: float) -> Array:
     """Return rows with accumulated progress and time, the number of the part, and the field of view."""
     counted = rows.copy()
-    counted[:, 5] += way
+    counted[:, 5] += metres
     counted[:, 6] += now
     return np.column_stack([counted, np.full(len(rows), part), np.full(len(rows), hfov)])

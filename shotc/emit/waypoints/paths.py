@@ -62,11 +62,11 @@ def catmull_rom(alpha: float) -> Tangents:
     """
 
     def tangents(points: Array) -> tuple[Array, Array]:
-        way = np.diff(points, axis=0)
-        way = np.concatenate([way[:1], way, way[-1:]])
-        knots = np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)[:, None] ** alpha
+        steps = np.diff(points, axis=0)
+        steps = np.concatenate([steps[:1], steps, steps[-1:]])
+        knots = np.maximum(np.linalg.norm(steps, axis=1), SHORTEST_M)[:, None] ** alpha
         before, after = knots[:-1], knots[1:]
-        rate = way[:-1] / before - (way[:-1] + way[1:]) / (before + after) + way[1:] / after
+        rate = steps[:-1] / before - (steps[:-1] + steps[1:]) / (before + after) + steps[1:] / after
         span = knots[1:-1]
         return rate[:-1] * span / 3, rate[1:] * span / 3
 
@@ -79,10 +79,10 @@ def handles(share: float) -> Tangents:
     """
 
     def tangents(points: Array) -> tuple[Array, Array]:
-        way = np.diff(points, axis=0)
-        along = np.concatenate([way[:1], points[2:] - points[:-2], way[-1:]])
+        steps = np.diff(points, axis=0)
+        along = np.concatenate([steps[:1], points[2:] - points[:-2], steps[-1:]])
         along = along / np.maximum(np.linalg.norm(along, axis=1), SHORTEST_M)[:, None]
-        length = share * np.linalg.norm(way, axis=1)[:, None]
+        length = share * np.linalg.norm(steps, axis=1)[:, None]
         return along[:-1] * length, along[1:] * length
 
     return tangents
@@ -90,17 +90,17 @@ def handles(share: float) -> Tangents:
 
 def natural(points: Array) -> tuple[Array, Array]:
     """Return the handles of the natural cubic spline parameterised by chord length, for points (m, 3)."""
-    way = np.diff(points, axis=0)
-    span = np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)
+    steps = np.diff(points, axis=0)
+    span = np.maximum(np.linalg.norm(steps, axis=1), SHORTEST_M)
     count = len(points)
     matrix, right = np.zeros((count, count)), np.zeros((count, 3))
     rows = np.arange(1, count - 1)
     matrix[rows, rows - 1], matrix[rows, rows + 1] = 1 / span[:-1], 1 / span[1:]
     matrix[rows, rows] = 2 / span[:-1] + 2 / span[1:]
-    right[rows] = 3 * (way[:-1] / span[:-1, None] ** 2 + way[1:] / span[1:, None] ** 2)
+    right[rows] = 3 * (steps[:-1] / span[:-1, None] ** 2 + steps[1:] / span[1:, None] ** 2)
     matrix[0, 0], matrix[-1, -1] = 2 / span[0], 2 / span[-1]
     matrix[0, 1], matrix[-1, -2] = 1 / span[0], 1 / span[-1]
-    right[0], right[-1] = 3 * way[0] / span[0] ** 2, 3 * way[-1] / span[-1] ** 2
+    right[0], right[-1] = 3 * steps[0] / span[0] ** 2, 3 * steps[-1] / span[-1] ** 2
     rate = np.linalg.solve(matrix, right)
     return rate[:-1] * span[:, None] / 3, rate[1:] * span[:, None] / 3
 
@@ -121,8 +121,8 @@ def rounded(points: Array, sizes: Array, count: int) -> Array:
 
 def corners(points: Array, sizes: Array) -> Array:
     """Return the Bernstein control points (m - 1, 3, 4, 3) of the legs of ``rounded``: curve, line, curve."""
-    way = np.diff(points, axis=0)
-    unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)[:, None]
+    steps = np.diff(points, axis=0)
+    unit = steps / np.maximum(np.linalg.norm(steps, axis=1), SHORTEST_M)[:, None]
     size = sizes.copy()[:, None]
     size[0] = size[-1] = 0.0
     before, after = np.concatenate([unit[:1], unit]), np.concatenate([unit, unit[-1:]])

@@ -133,7 +133,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
         shot = mission.shot(phase.shot or "")
         off = float(edge(hfov, drone.hfov).max())
         low, high = degrees(hfov.min()), degrees(hfov.max())
-        wanted = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
+        angles = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
         unknown = drone.lens is None and drone.autopilot in ZOOM_COMMANDS
         code, words = "E105", f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}"
         promised = off > WORST and _promises(shot)
@@ -146,7 +146,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
                 words,
                 (mission.origins.key(shot.path),),
                 (
-                    f"the field of view is {wanted}, the lens has {degrees(drone.hfov):.1f} deg: the edge of"
+                    f"the field of view is {angles}, the lens has {degrees(drone.hfov):.1f} deg: the edge of"
                     f" the picture is up to {at_least(off, 3)} half frames off",
                     *(["the shot promises its framing with `require`"] if promised else []),
                 ),
@@ -300,8 +300,8 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     parts = [] if aperture is None else [f"aperture f/{aperture:g}"]
     parts += [] if shutter is None else [f"shutter {exposure(shutter)}"]
     parts += [] if focuses or aperture is None else ["focus"]
-    told = "set by hand on the camera, as no file holds it"
-    return [f"{drone.autopilot} {drone.name}: {told}: {', '.join(parts)}"]
+    how = "set by hand on the camera, as no file holds it"
+    return [f"{drone.autopilot} {drone.name}: {how}: {', '.join(parts)}"]
 
 
 def filmed_instead(

@@ -48,7 +48,7 @@ class StationInterval:
 
 def stations_of(
     track: SampledFlight,
-    way: Array,
+    metres: Array,
     stay: Callable[[SampleRange], list[PointAction]] | None = None,
     photos: Mapping[str, Photos] | None = None,
 ) -> tuple[list[Station], list[StationInterval]]:
@@ -56,11 +56,11 @@ def stations_of(
 
     A stretch too short for two points becomes a stay at the first of them.
 
-    way : (n,), metres flown before each sample
+    metres : (n,), metres flown before each sample
     stay : gives the actions of a filmed stay; None for a plain stay
     photos : photo settings of the shots that take photos instead of a film
     """
-    groups, gaps = _grouped(track, way)
+    groups, gaps = _grouped(track, metres)
     shot: str | None = None
     stations: list[Station] = []
     for i, group in enumerate(groups):
@@ -84,12 +84,12 @@ def stations_of(
     return stations, gaps
 
 
-def _grouped(track: SampledFlight, way: Array) -> tuple[list[list[SampleRange]], list[StationInterval]]:
+def _grouped(track: SampledFlight, metres: Array) -> tuple[list[list[SampleRange]], list[StationInterval]]:
     """Return the stays at each station, and the gaps between them."""
     groups: list[list[SampleRange]] = [[]]
     gaps: list[StationInterval] = []
     for stretch in track.stretches:
-        if stretch.rest or _is_short(track, way, stretch):
+        if stretch.rest or _is_short(track, metres, stretch):
             groups[-1].append(stretch)
         else:
             gaps.append(StationInterval(stretch.first, stretch.last, stretch.shot))
@@ -97,8 +97,8 @@ def _grouped(track: SampledFlight, way: Array) -> tuple[list[list[SampleRange]],
     return groups, gaps
 
 
-def _is_short(track: SampledFlight, way: Array, stretch: SampleRange) -> bool:
-    return bool(way[stretch.last] - way[stretch.first] < SHORTEST_LEG_M)
+def _is_short(track: SampledFlight, metres: Array, stretch: SampleRange) -> bool:
+    return bool(metres[stretch.last] - metres[stretch.first] < SHORTEST_LEG_M)
 
 
 def _ends(

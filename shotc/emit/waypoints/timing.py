@@ -39,20 +39,20 @@ def kept_apart_by_time(
     others : flights of drones with a clock; pairs of these are not examined
     """
     trees = {
-        name: cKDTree(np.concatenate([way, *_columns(mission, name, way)])) for name, way in ways.items()
+        name: cKDTree(np.concatenate([path, *_columns(mission, name, path)])) for name, path in ways.items()
     }
     clocked = {flight.drone: cKDTree(evenly(_places(flight))) for flight in others}
     pairs = [*combinations(trees, 2), *product(trees, clocked)]
     trees |= clocked
-    found: list[WaysTooNear] = []
+    too_near_pairs: list[WaysTooNear] = []
     for one, other in pairs:
         distance = float(trees[one].query(trees[other].data)[0].min())
         if distance < mission.rules.separation - ROUNDING_M:
-            found.append(WaysTooNear((one, other), distance))
-    return found
+            too_near_pairs.append(WaysTooNear((one, other), distance))
+    return too_near_pairs
 
 
-def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str) -> float:
+def too_near(mission: MissionIR, flight: DroneTrajectory, path: Array, name: str) -> float:
     """Return the missing clearance of a path (n, 3) from a moving target, wherever it is on its track,
     metres.
     """
@@ -60,14 +60,14 @@ def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str)
     metres = mission.rules.beside_target(drone.radius)
     times = np.arange(flight.curve.start, flight.curve.end + TRACK_STEP_S, TRACK_STEP_S)
     bodies = (Clearance(target_owner(target), target.solid_at(t), metres) for t in times.tolist())
-    return max(float(shortfall(body, way).max()) for body in bodies)
+    return max(float(shortfall(body, path).max()) for body in bodies)
 
 
-def evenly(way: Array) -> Array:
+def evenly(path: Array) -> Array:
     """Return positions (k, 3) every STEP_M along a path through positions (n, 3), both ends included."""
-    done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
+    done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1)))
     at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP_M) + 1))
-    return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)
+    return np.stack([np.interp(at, done, axis) for axis in path.T], axis=1)
 
 
 def _places(flight: DroneTrajectory) -> Array:
@@ -76,7 +76,7 @@ def _places(flight: DroneTrajectory) -> Array:
     return curve(np.arange(curve.start, curve.end + SAMPLE_STEP_S, SAMPLE_STEP_S))[:, :3]
 
 
-def _columns(mission: MissionIR, name: str, way: Array) -> list[Array]:
+def _columns(mission: MissionIR, name: str, path: Array) -> list[Array]:
     """Return positions between the pad and both ends of a path, (k, 3) each."""
     home = np.array(mission.drone(name).home)
-    return [evenly(np.stack([home, end])) for end in (way[0], way[-1])]
+    return [evenly(np.stack([home, end])) for end in (path[0], path[-1])]

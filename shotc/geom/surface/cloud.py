@@ -53,20 +53,20 @@ class Splats:
 def splats(points: Array, size: float, most: int) -> Splats:
     """Return at most ``most`` representatives of points (N, 3), N > 0, in cells of ``size`` m or more."""
     while True:
-        order, begins = _in_cells(points, size)
-        if len(begins) <= most:
-            lowest, highest = _boxes(points[order], begins)
-            return Splats(np.asarray(0.5 * (lowest + highest)), order[begins], size)
+        order, starts = _in_cells(points, size)
+        if len(starts) <= most:
+            lowest, highest = _boxes(points[order], starts)
+            return Splats(np.asarray(0.5 * (lowest + highest)), order[starts], size)
         size *= max(
-            _LARGER_RATIO, _LARGER_RATIO * float(np.sqrt(len(begins) / most))
+            _LARGER_RATIO, _LARGER_RATIO * float(np.sqrt(len(starts) / most))
         )  # most clouds are surfaces
 
 
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
     """Return the box middles of each cell's points, (M, 3), and the largest distance moved."""
     kept = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
-    order, begins = _in_cells(points, kept.size)
-    counts = np.diff(np.append(begins, len(points)))
+    order, starts = _in_cells(points, kept.size)
+    counts = np.diff(np.append(starts, len(points)))
     moved = np.linalg.norm(points[order] - np.repeat(kept.middle, counts, axis=0), axis=1).max()
     return kept.middle, float(moved)
 
@@ -79,8 +79,8 @@ def _in_cells(points: Array, size: float) -> tuple[IntArray, IntArray]:
     return order, np.flatnonzero(np.concatenate([[True], np.diff(key[order]) > 0]))
 
 
-def _boxes(ordered: Array, begins: IntArray) -> tuple[Array, Array]:
-    return np.minimum.reduceat(ordered, begins), np.maximum.reduceat(ordered, begins)
+def _boxes(ordered: Array, starts: IntArray) -> tuple[Array, Array]:
+    return np.minimum.reduceat(ordered, starts), np.maximum.reduceat(ordered, starts)
 
 
 def median_spacing(surface: Surface) -> float:

@@ -38,10 +38,10 @@ def stopped_by_discs(
     a = first[pair, 0] + number // wide[pair, 1]
     b = first[pair, 1] + number % wide[pair, 1]
     its, to = frame[pair], away[pair]
-    way = boards.corner[its] - boards.eye[its]
-    way = way + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
-    square = np.maximum(dot(way, way), _NO_LENGTH)
-    along = dot(to, way) / square
+    ray = boards.corner[its] - boards.eye[its]
+    ray = ray + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
+    square = np.maximum(dot(ray, ray), _NO_LENGTH)
+    along = dot(to, ray) / square
     off = dot(to, to) - along**2 * square
     met = (along > 0.0) & (off <= radius**2) & (along + radius / np.sqrt(square) < reach[its, a, b])
     return its[met], (a * n + b)[met]
@@ -66,9 +66,9 @@ def _cells_about(
     on = away / share[:, None] - corner[frame]
     reach = radius / np.where(clear, share * cosine, 1.0)
     first, last = np.zeros((2, len(away), 2), dtype=np.intp)
-    for k, way in enumerate((boards.right, boards.up)):
-        square = np.maximum(dot(way, way), _NO_LENGTH)[frame]
-        at, half = dot(on, way[frame]) / square, reach / np.sqrt(square)
+    for k, edge in enumerate((boards.right, boards.up)):
+        square = np.maximum(dot(edge, edge), _NO_LENGTH)[frame]
+        at, half = dot(on, edge[frame]) / square, reach / np.sqrt(square)
         low, high = np.ceil((at - half) * n - 0.5), np.floor((at + half) * n - 0.5)
         first[:, k] = np.where(clear, np.clip(low, 0, n), 0)
         last[:, k] = np.where(clear, np.clip(high, -1, n - 1), n - 1)

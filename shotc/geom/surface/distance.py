@@ -179,8 +179,8 @@ class _Distances:
         some = some_distance(self.surface, middle)
         likely = np.argsort(some)[:MEASURED_PIECES]
         limit = np.nextafter(min(self.known.best, float(some.min())), np.inf)
-        found = nearest(self.surface, middle[likely], limit)
-        self.known.meet(found.distance, parts, likely, found.triangle)
+        closest_points = nearest(self.surface, middle[likely], limit)
+        self.known.meet(closest_points.distance, parts, likely, closest_points.triangle)
 
     def long(self, parts: Numbered) -> Mask:
         """Return which pieces meet fewer boxes after halving."""
@@ -225,12 +225,12 @@ class _Distances:
         """Return lower bounds (K,) of the distances of pairs, and update the least value with the middles."""
         triangles = self.surface.triangles[pairs.triangle]
         middle = middles(parts.pieces.ctrl)[pairs.item]
-        found = closest(triangles, middle)
-        self.known.meet(found.distance, parts, pairs.item, pairs.triangle)
-        normal = (middle - found.point) / np.maximum(found.distance, 1e-300)[:, None]
-        ctrl = parts.pieces.ctrl[pairs.item] - found.point[:, None]
+        closest_points = closest(triangles, middle)
+        self.known.meet(closest_points.distance, parts, pairs.item, pairs.triangle)
+        normal = (middle - closest_points.point) / np.maximum(closest_points.distance, 1e-300)[:, None]
+        ctrl = parts.pieces.ctrl[pairs.item] - closest_points.point[:, None]
         along = np.einsum("kmd,kd->km", ctrl, normal).min(axis=1)
-        behind = np.einsum("kvd,kd->kv", triangles - found.point[:, None], normal).max(axis=1)
+        behind = np.einsum("kvd,kd->kv", triangles - closest_points.point[:, None], normal).max(axis=1)
         # Near a crossing the direction is noise. A bound below 0 has no information.
         length = np.maximum(np.sqrt(dot(normal, normal)), 1.0)
         return np.asarray(np.maximum((along - behind) / length, 0.0))

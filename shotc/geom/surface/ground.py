@@ -128,26 +128,26 @@ def leaves(ground: Ground, pieces: Pieces) -> NoGround | None:
     """
     if not len(pieces):
         return None
-    begins = np.ones(len(pieces), dtype=bool)  # a piece that continues another needs no test of its start
-    begins[1:] = (pieces.ctrl[1:, 0, :2] != pieces.ctrl[:-1, -1, :2]).any(axis=1)
-    if np.isnan(height_at(ground, pieces.ctrl[begins, 0, :2])).any():
+    is_start = np.ones(len(pieces), dtype=bool)  # a piece that continues another needs no test of its start
+    is_start[1:] = (pieces.ctrl[1:, 0, :2] != pieces.ctrl[:-1, -1, :2]).any(axis=1)
+    if np.isnan(height_at(ground, pieces.ctrl[is_start, 0, :2])).any():
         return _farthest_out(ground, pieces)
     flat = pieces.ctrl * np.array([1.0, 1.0, 0.0])
-    found = inf_distance(Pieces(pieces.low, pieces.high, flat), ground.edge, _apart_at_all)
-    if found.proven > 0.0:
+    bound = inf_distance(Pieces(pieces.low, pieces.high, flat), ground.edge, _apart_at_all)
+    if bound.proven > 0.0:
         return None
-    return _farthest_out(ground, pieces) or _touched(pieces, found)
+    return _farthest_out(ground, pieces) or _touched(pieces, bound)
 
 
 def _apart_at_all(distance: float) -> float:
     return max(0.5 * distance, EDGE_M)
 
 
-def _touched(pieces: Pieces, found: SurfaceBound) -> NoGround:
-    i = found.piece
-    x = (found.at - pieces.low[i]) / (pieces.high[i] - pieces.low[i])
+def _touched(pieces: Pieces, bound: SurfaceBound) -> NoGround:
+    i = bound.piece
+    x = (bound.at - pieces.low[i]) / (pieces.high[i] - pieces.low[i])
     place = bernstein_basis(pieces.ctrl.shape[1] - 1, x) @ pieces.ctrl[i, :, :2]
-    return NoGround(found.at, (float(place[0]), float(place[1])), 0.0)
+    return NoGround(bound.at, (float(place[0]), float(place[1])), 0.0)
 
 
 def _farthest_out(ground: Ground, pieces: Pieces) -> NoGround | None:

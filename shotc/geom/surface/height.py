@@ -39,9 +39,9 @@ def inf_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGro
 
 def sup_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGround:
     """Bound the supremum of the height above ground, as ``inf_height``; without pieces both are -inf."""
-    found = leaves(ground, pieces)
-    if found is not None:
-        return found
+    bound = leaves(ground, pieces)
+    if bound is not None:
+        return bound
     least = _least(pieces, ground, lambda worst: gap(-worst), -1.0)
     return SurfaceBound(-least.proven, -least.attained, least.at, least.piece, least.triangle)
 
@@ -70,10 +70,10 @@ class _Heights:
     def look(self, parts: Numbered) -> None:
         """Evaluate the heights of the middles of all pieces as a first bound."""
         middle = middles(parts.pieces.ctrl)
-        found = under(self.ground, middle[:, :2])
-        there = np.flatnonzero(found.triangle >= 0)
-        values = self.sign * (middle[there, 2] - found.height[there])
-        self.known.meet(values, parts, there, found.triangle[there])
+        heights = under(self.ground, middle[:, :2])
+        there = np.flatnonzero(heights.triangle >= 0)
+        values = self.sign * (middle[there, 2] - heights.height[there])
+        self.known.meet(values, parts, there, heights.triangle[there])
 
     def long(self, parts: Numbered) -> Mask:
         """Return which pieces meet fewer boxes after halving: all."""

@@ -39,9 +39,9 @@ def bodies(triangles: Array) -> Bodies:
     ends, of = ends[long], of[long]
     order = np.argsort((ends[:, 0] << 32) | ends[:, 1], kind="stable")
     ends, of = ends[order], of[order]
-    begins = np.flatnonzero(np.concatenate([[True], (ends[1:] != ends[:-1]).any(axis=1)])[: len(ends)])
-    times = np.diff(np.append(begins, len(ends)))
-    label = _connected(len(triangles), of, begins, times)
+    starts = np.flatnonzero(np.concatenate([[True], (ends[1:] != ends[:-1]).any(axis=1)])[: len(ends)])
+    times = np.diff(np.append(starts, len(ends)))
+    label = _connected(len(triangles), of, starts, times)
     roots, body = np.unique(label, return_inverse=True)
     closed = np.ones(len(roots), dtype=bool)
     closed[body[of[np.repeat(times % 2 == 1, times)]]] = False
@@ -60,7 +60,7 @@ def _numbered(rows: IntArray) -> IntArray:
     return number
 
 
-def _connected(count: int, of: IntArray, begins: IntArray, times: IntArray) -> IntArray:
+def _connected(count: int, of: IntArray, starts: IntArray, times: IntArray) -> IntArray:
     """Return for each of ``count`` triangles the least index in its body; edges connect triangles.
 
     of : triangles edge by edge; begins, times : start of each edge's triangles in it, and their number
@@ -68,8 +68,8 @@ def _connected(count: int, of: IntArray, begins: IntArray, times: IntArray) -> I
     The number of rounds grows with the logarithm of the longest chain (Shiloach and Vishkin 1982).
     """
     label = np.arange(count)
-    while len(begins):
-        least = np.repeat(np.minimum.reduceat(label[of], begins), times)
+    while len(starts):
+        least = np.repeat(np.minimum.reduceat(label[of], starts), times)
         before = label.copy()
         np.minimum.at(label, before[of], least)
         np.minimum.at(label, of, least)
@@ -88,13 +88,13 @@ def inside(surface: Surface, body: IntArray, closed: Mask, p: Array) -> Mask:
     return np.asarray(2 * votes > len(RAYS))
 
 
-def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, way: Array) -> Mask:
+def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, direction: Array) -> Mask:
     """Return for which points a ray crosses some closed body an odd number of times; (K,)."""
     out = np.zeros(len(p), dtype=bool)
     if not len(surface) or not closed.any() or not len(p):
         return out
     top = max(float(high[:, 2].max()) for high in surface.high[-1:])
-    end = p + np.maximum(top + 1.0 - p[:, 2:], 0.0) * way
+    end = p + np.maximum(top + 1.0 - p[:, 2:], 0.0) * direction
 
     def meets(item: IntArray, low: Array, high: Array) -> Mask:
         """Return which boxes a ray may meet, by its part between their lower and upper sides."""
@@ -102,7 +102,7 @@ def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, way: Array) -
         first, last = np.maximum(low[:, 2] - z, 0.0), high[:, 2] - z
         met = last >= 0.0
         for axis in (0, 1):
-            ends = p[item, axis] + way[axis] * first, p[item, axis] + way[axis] * last
+            ends = p[item, axis] + direction[axis] * first, p[item, axis] + direction[axis] * last
             met &= (np.minimum(*ends) <= high[:, axis]) & (np.maximum(*ends) >= low[:, axis])
         return np.asarray(met)
 

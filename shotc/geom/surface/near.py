@@ -39,14 +39,17 @@ class NearestOnSurface:
 def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> NearestOnSurface:
     """Return the nearest surface points to points (K, 3) within ``limit``, metres, scalar or (K,)."""
     count = len(p)
-    found = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
+    closest_points = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
     limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
     for start in range(0, count, BATCH_ITEMS):
         part = slice(start, start + BATCH_ITEMS)
         _nearest(
-            surface, p[part], limits[part], NearestOnSurface(*(getattr(found, f)[part] for f in _FIELDS))
+            surface,
+            p[part],
+            limits[part],
+            NearestOnSurface(*(getattr(closest_points, f)[part] for f in _FIELDS)),
         )
-    return found
+    return closest_points
 
 
 _FIELDS = ("distance", "point", "triangle")
@@ -96,8 +99,8 @@ def some_distance(surface: Surface, p: Array) -> Array:
         below = len(surface.low[level - 1]) if level else len(surface)
         nodes = np.minimum(LEAF_TRIANGLES * node[:, None] + np.arange(LEAF_TRIANGLES), below - 1)
     triangles = surface.triangles[nodes.ravel()]
-    found = closest(triangles, np.repeat(p, LEAF_TRIANGLES, axis=0)).distance
-    return np.asarray(found.reshape(-1, LEAF_TRIANGLES).min(axis=1))
+    distances = closest(triangles, np.repeat(p, LEAF_TRIANGLES, axis=0)).distance
+    return np.asarray(distances.reshape(-1, LEAF_TRIANGLES).min(axis=1))
 
 
 def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> Pairs:

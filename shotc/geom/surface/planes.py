@@ -61,7 +61,7 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
     it is crowded. A piece that is already too near gets planes at the full clearance, which its points
     violate.
     """
-    found: list[Planes] = []
+    planes: list[Planes] = []
     none = np.zeros(len(hulls), dtype=bool)
     pairs, far = _candidates(surface, hulls, clearance + reach)
     for _ in range(MOST_PLANES):
@@ -72,22 +72,22 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
         normal, gap = separate(surface.triangles[chosen], hulls[piece])
         behind = support(surface.triangles[chosen], normal) + kept(gap - clearance)
         near = gap < clearance + reach
-        found.append(
+        planes.append(
             Planes(piece[near], surface.source[chosen[near]], normal[near], behind[near] + clearance, none)
         )
         pairs, far = _still_before(surface, pairs, far, (piece, normal, behind))
     crowded = none.copy()
     crowded[pairs.item] = True
-    return _together(found, crowded)
+    return _together(planes, crowded)
 
 
-def _together(found: list[Planes], crowded: Mask) -> Planes:
+def _together(parts: list[Planes], crowded: Mask) -> Planes:
     """Return the union of planes; crowded : shape (P,)."""
     return Planes(
-        np.concatenate([np.zeros(0, dtype=np.intp), *(f.piece for f in found)]),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(f.triangle for f in found)]),
-        np.concatenate([np.zeros((0, 3)), *(f.normal for f in found)]),
-        np.concatenate([np.zeros(0), *(f.offset for f in found)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(f.piece for f in parts)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(f.triangle for f in parts)]),
+        np.concatenate([np.zeros((0, 3)), *(f.normal for f in parts)]),
+        np.concatenate([np.zeros(0), *(f.offset for f in parts)]),
         crowded,
     )
 
@@ -181,15 +181,15 @@ def _gaps(triangles: Array, hulls: Array, normals: Array) -> Array:
 
 def _distances(triangles: Array, hulls: Array) -> Array:
     count = hulls.shape[1]
-    found = closest(np.repeat(triangles, count, axis=0), hulls.reshape(-1, 3))
-    return found.distance.reshape(-1, count)
+    closest_points = closest(np.repeat(triangles, count, axis=0), hulls.reshape(-1, 3))
+    return closest_points.distance.reshape(-1, count)
 
 
 def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
     """Return unit directions (K, 3) from triangles to points (K, 3) (up on them), and distances (K,)."""
-    found = closest(triangles, p)
-    away = p - found.point
-    outside = (found.distance > TOUCHES_M)[:, None]
+    closest_points = closest(triangles, p)
+    away = p - closest_points.point
+    outside = (closest_points.distance > TOUCHES_M)[:, None]
     return np.where(
-        outside, away / np.maximum(found.distance, TOUCHES_M)[:, None], WAYS_OUT[-1]
-    ), found.distance
+        outside, away / np.maximum(closest_points.distance, TOUCHES_M)[:, None], WAYS_OUT[-1]
+    ), closest_points.distance

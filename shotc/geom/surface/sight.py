@@ -107,11 +107,11 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
     several = each.together(starts)
     if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):
         return search(surface, len(boards), each.meets(far, about))
-    found = search(surface, len(starts), several.meets(far, about))
-    lasts = np.minimum(starts + GROUPED_FRAMES, len(boards))[found.item]
-    frame = starts[found.item][:, None] + np.arange(GROUPED_FRAMES)
-    inside = frame < lasts[:, None]
-    item, triangle = frame[inside], np.repeat(found.triangle, inside.sum(axis=1))
+    pairs = search(surface, len(starts), several.meets(far, about))
+    ends = np.minimum(starts + GROUPED_FRAMES, len(boards))[pairs.item]
+    frame = starts[pairs.item][:, None] + np.arange(GROUPED_FRAMES)
+    inside = frame < ends[:, None]
+    item, triangle = frame[inside], np.repeat(pairs.triangle, inside.sum(axis=1))
     corners = surface.triangles[triangle]
     keep = each.meets(far, about)(item, lowest(corners), highest(corners))
     item, triangle = item[keep], triangle[keep]
@@ -158,7 +158,7 @@ def _pyramids(boards: Billboards, n: int) -> _Pyramids:
     right, up = (1.0 - 1.0 / n) * boards.right, (1.0 - 1.0 / n) * boards.up
     ends = np.stack([first, first + right, first + up, first + right + up], axis=1)
     normals = np.stack(
-        [cross(ends[:, k], way) for k, way in ((0, right), (2, right), (0, up), (1, up))], axis=1
+        [cross(ends[:, k], edge) for k, edge in ((0, right), (2, right), (0, up), (1, up))], axis=1
     )
     inward = np.einsum("fsd,fsd->fs", normals, np.stack([up, -up, right, -right], axis=1))
     length = np.maximum(np.linalg.norm(normals, axis=2), _NO_LENGTH)

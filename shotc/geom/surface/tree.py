@@ -179,10 +179,10 @@ def under_points(surface: Surface, xy: Array) -> Pairs:
     low, high = (extreme.reduceat(xy, starts, axis=0) for extreme in (np.minimum, np.maximum))
     if (high - low).mean() > (surface.high[0] - surface.low[0])[:, :2].mean():
         return in_plan(surface, xy, xy)
-    found = in_plan(surface, low, high)
-    point = starts[found.item][:, None] + np.arange(GROUPED_POINTS)
+    pairs = in_plan(surface, low, high)
+    point = starts[pairs.item][:, None] + np.arange(GROUPED_POINTS)
     inside = point < len(xy)
-    item, triangle = point[inside], np.repeat(found.triangle, inside.sum(axis=1))
+    item, triangle = point[inside], np.repeat(pairs.triangle, inside.sum(axis=1))
     corners = surface.triangles[triangle]
     keep = plan_boxes_meet(xy[item], xy[item], lowest(corners), highest(corners))
     order = np.argsort(item[keep], kind="stable")

@@ -23,9 +23,9 @@ def lowest_under(ground: Ground, rings: Sequence[Array]) -> Array:
     """
     if not rings:
         return np.zeros(0)
-    begins = np.cumsum([0, *map(len, rings)])[:-1]
+    starts = np.cumsum([0, *map(len, rings)])[:-1]
     corners = height_at(ground, np.concatenate(rings))
-    lowest = np.fmin.reduceat(corners, begins)
+    lowest = np.fmin.reduceat(corners, starts)
     low = np.array([ring.min(axis=0) for ring in rings])
     high = np.array([ring.max(axis=0) for ring in rings])
     pairs = in_plan(ground.surface, low, high)

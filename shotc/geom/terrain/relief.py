@@ -54,15 +54,15 @@ def relief_of(
     """
     system: System | None = None
     if posts.system is not None:
-        found = system_of(posts.system)
-        if isinstance(found, TerrainFault):
-            return found
+        georeference = system_of(posts.system)
+        if isinstance(georeference, TerrainFault):
+            return georeference
         if origin is None:
-            message = f"its posts are places in {found.name}, and the mission has no origin on earth"
+            message = f"its posts are places in {georeference.name}, and the mission has no origin on earth"
             return TerrainFault(
                 "origin", message, None, "give `world: {origin: {lat: ..., lon: ..., alt: ...}}`"
             )
-        system = found
+        system = georeference
     part = _part(posts, box, system, origin)
     if isinstance(part, TerrainFault):
         return part
@@ -117,9 +117,9 @@ def _sides(
     return x, y
 
 
-def _about(values: Array, wanted: Array) -> slice | None:
+def _about(values: Array, required: Array) -> slice | None:
     """Return the slice of increasing values around the wanted ones, or None if they do not overlap."""
-    low, high = float(wanted.min()), float(wanted.max())
+    low, high = float(required.min()), float(required.max())
     if high < values[0] or low > values[-1]:
         return None
     first = int(np.searchsorted(values, low, side="right")) - 1 - _MARGIN_POSTS

@@ -45,7 +45,7 @@ LEVEL_AXIS_SHARE = 1e-6
 """Least horizontal part of the view direction. Below it, the camera's up axis gives the heading."""
 
 
-def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
+def footage(text: str, options: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the single take of a table of frames."""
     table = table_of(text, [NAMES[k] for k in "xyz"], EXAMPLE)
     if isinstance(table, Refused):
@@ -61,7 +61,7 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Re
     if len(table.rows) > MOST_CAMERAS:
         message = f"it has {len(table.rows)} frames; at most {MOST_CAMERAS} are read"
         return Refused("I001", message, table.rows[MOST_CAMERAS].node)
-    cameras = _cameras(table, columns, asked, notes)
+    cameras = _cameras(table, columns, options, notes)
     return ImportedTakes(table.node, without_far([Take("", table.node, tuple(cameras))], notes))
 
 
@@ -72,9 +72,9 @@ def _column(table: CameraTable, names: tuple[str, ...]) -> str:
 
 
 def _cameras(
-    table: CameraTable, columns: dict[str, str], asked: ImportOptions, notes: Notes
+    table: CameraTable, columns: dict[str, str], options: ImportOptions, notes: Notes
 ) -> list[ImportedCamera]:
-    rate = _rate(table, columns, asked, notes)
+    rate = _rate(table, columns, options, notes)
     unit = _unit(table, columns, notes)
     _lens_noted(table, columns, notes)
     cameras: list[ImportedCamera] = []
@@ -95,9 +95,9 @@ def _cameras(
     return cameras
 
 
-def _rate(table: CameraTable, columns: dict[str, str], asked: ImportOptions, notes: Notes) -> float:
-    if "time" in columns or asked.fps is not None:
-        return asked.fps or USUAL_FPS
+def _rate(table: CameraTable, columns: dict[str, str], options: ImportOptions, notes: Notes) -> float:
+    if "time" in columns or options.fps is not None:
+        return options.fps or USUAL_FPS
     head = table.heads[columns["frame"]]
     notes.assume(head, "the file does not say how long a frame is", f"{USUAL_FPS:g} frames a second; `--fps`")
     return USUAL_FPS
@@ -146,11 +146,11 @@ def _camera(
 
 def _hfov(values: dict[str, float | None]) -> float:
     """Return the horizontal field of view of a landscape frame, degrees."""
-    told = values.get("hfov")
-    if told is None:
+    hfov = values.get("hfov")
+    if hfov is None:
         lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
-        told = degrees(field_of_view(max(lens, 1e-3), sensor))
-    return shown(told)
+        hfov = degrees(field_of_view(max(lens, 1e-3), sensor))
+    return shown(hfov)
 
 
 def _axes(values: dict[str, float | None], unit: float) -> tuple[Vec3, Vec3, Vec3] | None:

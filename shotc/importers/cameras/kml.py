@@ -67,35 +67,35 @@ def unpacked(data: bytes) -> bytes | XmlFault:
     """Return the KML in a file: the first document of a KMZ, or the bytes themselves."""
     if not data.startswith(MAGIC):
         return data
-    found = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST_BYTES)
-    return XmlFault(found) if isinstance(found, str) else found
+    document = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST_BYTES)
+    return XmlFault(document) if isinstance(document, str) else document
 
 
-def footage(root: Node, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
+def footage(root: Node, options: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a KML document."""
     if local(root) != "kml":
         return Refused("I002", f"it is no KML: its root is `{plain(root.tag, 30)}`", root)
     tours = [node for node in root.everything() if local(node) == "Tour"]
-    found = [(tour, list(_tour(tour, notes))) for tour in tours]
+    toured = [(tour, list(_tour(tour, notes))) for tour in tours]
     if not tours:
         views = [view for node in _marked(root) if (view := _view(node, notes)) is not None]
-        found = [(root, views)]
+        toured = [(root, views)]
         if views:
             message = "the file has no tour, but placemarks with cameras"
             notes.assume(root, message, "one shot through all of them, in their order")
-    views = [view for _, some in found for view in some]
+    views = [view for _, some in toured for view in some]
     if len(views) > MOST_CAMERAS:
         message = f"it has {len(views)} cameras; at most {MOST_CAMERAS} are read"
         return Refused("I001", message, views[MOST_CAMERAS].node)
     if not views:
         return Refused("I003", "it holds no camera that says where it is", root, RECORD)
     _lens(views, notes)
-    ground = _ground(views, asked, notes)
+    ground = _ground(views, options, notes)
     if isinstance(ground, Refused):
         return ground
     origin = origin_at(median(v.place[0] for v in views), median(v.place[1] for v in views), ground)
     takes = [
-        Take(_name(tour), tour, tuple(_camera(view, origin, notes) for view in some)) for tour, some in found
+        Take(_name(tour), tour, tuple(_camera(view, origin, notes) for view in some)) for tour, some in toured
     ]
     return ImportedTakes(root, without_far(takes, notes), origin)
 
@@ -136,10 +136,10 @@ def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
     ]
     for step in steps:
         kind = local(step)
-        lasts = _seconds(step, notes)
+        seconds = _seconds(step, notes)
         if kind == "Wait" and last is not None:
-            last = last._replace(hold=last.hold + lasts)
-            time += lasts
+            last = last._replace(hold=last.hold + seconds)
+            time += seconds
         elif kind == "FlyTo":
             view = child(step, "Camera", "LookAt")
             made = None if view is None else _view(view, notes)
@@ -148,7 +148,7 @@ def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
                 continue
             if last is not None:
                 yield last
-                time += lasts
+                time += seconds
                 if (mode := child(step, "flyToMode")) is None or mode.text.strip() != "smooth":
                     notes.assume(step, "a flight that bounces", "the camera goes straight there")
             last = made._replace(time=time)
@@ -159,12 +159,12 @@ def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
 
 
 def _seconds(step: Node, notes: Notes) -> float:
-    told = child(step, "duration")
-    if told is None:
+    node = child(step, "duration")
+    if node is None:
         return 0.0
-    value = number(told.text.strip())
+    value = number(node.text.strip())
     if value is None or value < 0.0:
-        notes.assume(told, f"`{plain(told.text.strip(), 20)}` is no duration", "0 s")
+        notes.assume(node, f"`{plain(node.text.strip(), 20)}` is no duration", "0 s")
         return 0.0
     return value
 
@@ -176,16 +176,16 @@ def _view(node: Node, notes: Notes) -> KmlView | None:
         notes.assume(node, "a camera without a latitude and a longitude", "it is left out")
         return None
     alt = _number(node, "altitude", 0.0, notes) or 0.0
-    told = child(node, "altitudeMode")
-    mode = told.text.strip() if told is not None else "clampToGround"
+    mode_node = child(node, "altitudeMode")
+    mode = mode_node.text.strip() if mode_node is not None else "clampToGround"
     if mode != "absolute" and mode not in GROUND_MODES:
         notes.assume(
-            told or node, f"an altitude mode `{plain(mode, 30)}` that KML has not", "relativeToGround"
+            mode_node or node, f"an altitude mode `{plain(mode, 30)}` that KML has not", "relativeToGround"
         )
     if mode.startswith("clamp"):
         if alt > 0.0 and local(node) == "Camera":
             message = f"a camera {alt:g} m high that is clamped to the ground"
-            notes.assume(told or node, message, "its altitude counts from the ground")
+            notes.assume(mode_node or node, message, "its altitude counts from the ground")
         else:
             alt = 0.0
     far = (_number(node, "range", 0.0, notes) or 0.0) if local(node) == "LookAt" else 0.0
@@ -203,13 +203,13 @@ def _view(node: Node, notes: Notes) -> KmlView | None:
 
 
 def _number(node: Node, tag: str, otherwise: float | None, notes: Notes) -> float | None:
-    told = child(node, tag)
-    if told is None:
+    field = child(node, tag)
+    if field is None:
         return otherwise
-    value = number(told.text.strip())
+    value = number(field.text.strip())
     if value is None:
         shown = "left out" if otherwise is None else f"{otherwise:g}"
-        notes.assume(told, f"`{plain(told.text.strip(), 20)}` is no number", shown)
+        notes.assume(field, f"`{plain(field.text.strip(), 20)}` is no number", shown)
         return otherwise
     return value
 
@@ -221,11 +221,11 @@ def _lens(views: list[KmlView], notes: Notes) -> None:
         notes.assume(bare[0].node, message, f"{USUAL_HFOV_DEG:g} deg, as Google Earth does")
 
 
-def _ground(views: list[KmlView], asked: ImportOptions, notes: Notes) -> float | Refused:
+def _ground(views: list[KmlView], options: ImportOptions, notes: Notes) -> float | Refused:
     """Return the altitude of the ground (the plane z = 0) above sea level, metres."""
     absolute = [view for view in views if view.absolute]
-    if asked.ground is not None:
-        return asked.ground
+    if options.ground is not None:
+        return options.ground
     if not absolute:
         message = "heights count from the ground, whose altitude the file does not have"
         notes.assume(views[0].node, message, "flat ground at sea level; `--ground` is its altitude")

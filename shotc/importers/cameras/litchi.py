@@ -29,7 +29,7 @@ FOCUS_GIMBAL_MODE = 1
 """Gimbal mode in which the camera follows the point of interest."""
 
 
-def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
+def footage(text: str, options: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a Litchi mission: the recorded parts, or all of it if nothing is recorded."""
     height = ("altitude(m)", "altitude(ft)")
     table = table_of(text, [("latitude",), ("longitude",), height, ("heading(deg)",)], EXAMPLE)
@@ -44,10 +44,10 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Re
     origin = origin_at(
         rows[0].number("latitude", notes) or 0.0,
         rows[0].number("longitude", notes) or 0.0,
-        asked.ground or 0.0,
+        options.ground or 0.0,
     )
     feet = height[0] not in table.heads
-    if asked.ground is None:
+    if options.ground is None:
         message = "heights count from the take-off, whose altitude the file does not have"
         notes.assume(table.node, message, "flat ground at sea level; `--ground` is its altitude")
     if any(row.number("altitudemode", Notes()) == 1 for row in rows):
@@ -60,9 +60,7 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Re
     kinds = [{kind for kind, _ in actions_of(row, unheard)} for row in rows]
     if any(row.number("speed(m/s)", unheard) or row.number("speed(ft/s)", unheard) for row in rows):
         notes.assume(table.node, "speeds of waypoints are not read", "the drone goes at its own pace")
-    takes = recorded(
-        table.node, cameras, [START in found for found in kinds], [STOP in found for found in kinds]
-    )
+    takes = recorded(table.node, cameras, [START in tags for tags in kinds], [STOP in tags for tags in kinds])
     return ImportedTakes(table.node, without_far(takes, notes), origin)
 
 
@@ -85,10 +83,10 @@ def _cameras(
             notes.assume(row.node, "a waypoint without an altitude", "0 m")
         place = (row.number("latitude", notes) or 0.0, row.number("longitude", notes) or 0.0)
         at = world(origin, *place, unit * (height or 0.0), absolute=False)
-        mode, told = row.number("gimbalmode", notes), row.number("gimbalpitchangle", notes)
+        mode, angle = row.number("gimbalmode", notes), row.number("gimbalpitchangle", notes)
         tilted = [value for kind, value in actions_of(row, notes) if kind == TILT]
-        if mode is not None and mode > 0 and told is not None:
-            pitch = told
+        if mode is not None and mode > 0 and angle is not None:
+            pitch = angle
         pitch = tilted[-1] if tilted else pitch
         heading = row.number("heading(deg)", notes)
         if heading is None:

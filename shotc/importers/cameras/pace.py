@@ -17,8 +17,8 @@ PACE_SHARE = 0.75
 
 def too_fast(cameras: Sequence[ImportedCamera], limits: Limits) -> ImportedCamera | None:
     """Return the first camera from which a drone is late at the next one, None if it is always in time."""
-    for camera, lasts, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
-        if least > PACE_SHARE * lasts:
+    for camera, duration, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
+        if least > PACE_SHARE * duration:
             return camera
     return None
 
@@ -47,10 +47,10 @@ def _stretches(
         across = sum(hypot(x, y) for x, y, _ in steps)
         up, down = sum(max(z, 0.0) for _, _, z in steps), sum(max(-z, 0.0) for _, _, z in steps)
         ways = ((across, limits.speed), (up, limits.climb), (down, limits.descent))
-        least = max(_least(way, speed, limits.acceleration) for way, speed in ways)
+        least = max(_least(length, speed, limits.acceleration) for length, speed in ways)
         yield some[0], (some[-1].time or 0.0) - (some[0].time or 0.0) - some[0].hold, least
 
 
-def _least(way: float, speed: float, push: float) -> float:
+def _least(length: float, speed: float, push: float) -> float:
     """Return the least duration from rest to rest, s. way : m; speed : m/s; push : m/s^2."""
-    return way / speed + speed / push if way * push > speed * speed else 2.0 * sqrt(way / push)
+    return length / speed + speed / push if length * push > speed * speed else 2.0 * sqrt(length / push)

@@ -104,7 +104,7 @@ def opened(data: bytes, name: str) -> Opened | Refused:
     return Opened(document, mission, listed, whole)
 
 
-def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
+def footage(data: bytes, name: str, options: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a plan: the recorded parts, or all waypoints if nothing is recorded."""
     plan = opened(data, name)
     if isinstance(plan, Refused):
@@ -117,7 +117,7 @@ def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Impor
     ways = [item for item in items if item.command in (WAYPOINT, SPLINE)]
     if not ways:
         return Refused("I003", "it holds no waypoint that says where it is", whole)
-    origin = _origin(document, mission, ways[0], asked, notes)
+    origin = _origin(document, mission, ways[0], options, notes)
     absolute = [item for item in ways if item.frame in SEA_LEVEL]
     if isinstance(origin, Refused):
         return origin
@@ -125,15 +125,15 @@ def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Impor
         absolute
         and len(absolute) < len(ways)
         and "plannedHomePosition" not in mission
-        and asked.ground is None
+        and options.ground is None
     ):
         message = "some waypoints count from sea level, others from a home that the file does not have"
         return Refused(
             "I007", message, absolute[0].node, "give the altitude of the ground: `--ground METRES`"
         )
     for part in ("geoFence", "rallyPoints"):
-        found = document.root.get(part)
-        if isinstance(found, dict) and any(isinstance(v, list) and v for v in found.values()):
+        content = document.root.get(part)
+        if isinstance(content, dict) and any(isinstance(v, list) and v for v in content.values()):
             notes.assume(node_at(document, part), f"`{part}` is not imported", "zones of your own, or none")
     if (fast := next((item for item in items if item.command == SPEED), None)) is not None:
         notes.assume(fast.node, "speeds between waypoints are not read", "the drone goes at its own pace")
@@ -183,7 +183,7 @@ def _is_placed(item: CameraCommand) -> bool:
 
 
 def _origin(
-    document: Document, mission: dict[str, Any], first: CameraCommand, asked: ImportOptions, notes: Notes
+    document: Document, mission: dict[str, Any], first: CameraCommand, options: ImportOptions, notes: Notes
 ) -> GeoOrigin | Refused:
     home = mission.get("plannedHomePosition")
     if home is not None:
@@ -192,12 +192,12 @@ def _origin(
         if lat is None or lon is None or not is_place(lat, lon):
             node = node_at(document, "mission", "plannedHomePosition")
             return Refused("I002", "its `plannedHomePosition` is no latitude, longitude and altitude", node)
-        return origin_at(lat, lon, asked.ground if asked.ground is not None else (alt or 0.0))
-    if asked.ground is None:
+        return origin_at(lat, lon, options.ground if options.ground is not None else (alt or 0.0))
+    if options.ground is None:
         message = "the file has no `plannedHomePosition`"
         taken = "home is at the first waypoint, at sea level; `--ground` is its altitude"
         notes.assume(first.node, message, taken)
-    return origin_at(first.params[4] or 0.0, first.params[5] or 0.0, asked.ground or 0.0)
+    return origin_at(first.params[4] or 0.0, first.params[5] or 0.0, options.ground or 0.0)
 
 
 def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes: Notes) -> list[Take]:
@@ -208,7 +208,7 @@ def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes
     looks, heading = _Aim(), 0.0
     first = next(i for i, item in enumerate(items) if item.command in (WAYPOINT, SPLINE))
     for item in items[:first]:
-        _told(item, looks, origin)
+        _turn(item, looks, origin)
     i = first
     while i < len(items):
         item, i = items[i], i + 1
@@ -217,16 +217,16 @@ def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes
         after = []
         while i < len(items) and items[i].command not in (WAYPOINT, SPLINE):
             after.append(items[i])
-            _told(items[i], looks, origin)
+            _turn(items[i], looks, origin)
             i += 1
         hold = max(0.0, item.params[0] or 0.0) if item.command == WAYPOINT else 0.0
         cameras.append(_camera(item, at, heading, looks, notes)._replace(hold=hold, hfov=looks.hfov))
-        starts.append(any(_begins(told) for told in after))
-        stops.append(any(_ends(told) for told in after))
+        starts.append(any(_starts_recording(command) for command in after))
+        stops.append(any(_ends(command) for command in after))
     return recorded(whole, cameras, starts, stops)
 
 
-def _begins(item: CameraCommand) -> bool:
+def _starts_recording(item: CameraCommand) -> bool:
     """Return whether a command starts a recording or photos."""
     return item.command in (START, PHOTOS) or (item.command == PHOTOS_BY_WAY and bool(item.params[0]))
 
@@ -252,7 +252,7 @@ def _ahead(items: Sequence[CameraCommand], i: int, at: Vec3, origin: GeoOrigin, 
     return otherwise
 
 
-def _told(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
+def _turn(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
     """Apply a command to the aim of the camera."""
     p = item.params
     if item.command in (LOOK, LOOK_OLD) and is_place(p[4], p[5]) and (p[4], p[5]) != (0.0, 0.0):

@@ -48,13 +48,13 @@ def thinned(
     on_clock : whether the picture must match at each camera's time, or only along the path
     """
     lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
-    way = _way(lens, on_clock=on_clock)
+    parameters = _parameters(lens, on_clock=on_clock)
     needed = (i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)
     kept = {*range(0, len(lens), MOST_CAMERAS_APART), len(lens) - 1, *needed}
     spans = list(pairwise(sorted(kept)))
     while spans:
         first, last = spans.pop()
-        worst, at = _worst(lens, way, first, last)
+        worst, at = _worst(lens, parameters, first, last)
         if worst > PICTURE_ERROR_HALF_FRAMES:
             kept.add(at)
             spans += [(first, at), (at, last)]
@@ -90,7 +90,7 @@ def picture_change(a: ImportedCamera, b: ImportedCamera) -> float:
     return worst
 
 
-def _way(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
+def _parameters(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
     """Return the path parameter of each camera: its time, or the accumulated change of the picture."""
     if on_clock:
         return [camera.time or 0.0 for camera in cameras]
@@ -99,7 +99,7 @@ def _way(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
 
 
 def _worst(
-    cameras: Sequence[ImportedCamera], way: Sequence[float], first: int, last: int
+    cameras: Sequence[ImportedCamera], parameters: Sequence[float], first: int, last: int
 ) -> tuple[float, int]:
     """Return the largest error of the picture between two remaining cameras, and the camera that has it."""
     a, b = cameras[first], cameras[last]
@@ -107,10 +107,10 @@ def _worst(
         return 0.0, first
     if abs(b.heading - a.heading) > WIDEST_TURN_DEG:
         return inf, (first + last) // 2
-    whole = way[last] - way[first]
+    whole = parameters[last] - parameters[first]
     worst, at = 0.0, first
     for i in range(first + 1, last):
-        share = (way[i] - way[first]) / whole if whole > 0 else 0.0
+        share = (parameters[i] - parameters[first]) / whole if whole > 0 else 0.0
         off = picture_change(cameras[i], _between(a, b, share))
         if off > worst:
             worst, at = off, i

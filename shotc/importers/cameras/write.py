@@ -33,7 +33,7 @@ class Written(NamedTuple):
 
 
 def written(
-    name: str, what: str, footage: ImportedTakes, asked: ImportOptions, notes: Notes
+    name: str, what: str, footage: ImportedTakes, options: ImportOptions, notes: Notes
 ) -> Written | None:
     """Return a mission, None if no take has two cameras.
 
@@ -49,12 +49,14 @@ def written(
     widest, narrowest = _lenses(takes)
     usual, lenses = takes[0].cameras[0].hfov or widest, widest - narrowest > SAME_LENS_DEG
     kept = [
-        take if asked.every else take._replace(cameras=thinned(take.cameras, usual, on_clock=asked.times))
+        take if options.every else take._replace(cameras=thinned(take.cameras, usual, on_clock=options.times))
         for take in takes
     ]
     counts = (sum(len(take.cameras) for take in takes), sum(len(take.cameras) for take in kept))
     shots = [
-        line for i, take in enumerate(kept) for line in _shot(_id(kept, i), take, asked, notes, lenses=lenses)
+        line
+        for i, take in enumerate(kept)
+        for line in _shot(_id(kept, i), take, options, notes, lenses=lenses)
     ]
     drone = _drone(footage, kept[0].cameras[0], notes, zoom=(widest, narrowest) if lenses else None)
     head = [f"# Imported from {what}."]
@@ -88,9 +90,9 @@ def _same(a: ImportedCamera, b: ImportedCamera) -> bool:
 
 def _lenses(takes: list[Take]) -> tuple[float, float]:
     """Return the widest and the narrowest field of view, degrees; the drone's own if the file has none."""
-    found = [camera.hfov for take in takes for camera in take.cameras if camera.hfov is not None]
+    lenses = [camera.hfov for take in takes for camera in take.cameras if camera.hfov is not None]
     own = degrees(PRESETS[MODEL].hfov)
-    return max(found, default=own), min(found, default=own)
+    return max(lenses, default=own), min(lenses, default=own)
 
 
 def _world(footage: ImportedTakes) -> Iterator[str]:
@@ -109,8 +111,8 @@ def _drone(
     home = footage.home
     if home is None:
         x, y, _ = first.at
-        way = radians(first.heading)
-        home = (x - BEHIND_M * sin(way), y - BEHIND_M * cos(way), 0.0)
+        heading = radians(first.heading)
+        home = (x - BEHIND_M * sin(heading), y - BEHIND_M * cos(heading), 0.0)
         message = "the file does not say which drone it is, nor where it stands"
         notes.assume(footage.node, message, f"model {MODEL}, {BEHIND_M:g} m behind the first camera")
     else:
@@ -135,7 +137,7 @@ def _id(takes: list[Take], i: int) -> str:
     return names[i] if names.count(names[i]) == 1 else f"{names[i]}-{names[: i + 1].count(names[i])}"
 
 
-def _shot(name: str, take: Take, asked: ImportOptions, notes: Notes, *, lenses: bool) -> Iterator[str]:
+def _shot(name: str, take: Take, options: ImportOptions, notes: Notes, *, lenses: bool) -> Iterator[str]:
     yield f"  - id: {name}"
     yield "    kind: keyframes"
     yield "    drone: cam1"
@@ -154,7 +156,7 @@ def _shot(name: str, take: Take, asked: ImportOptions, notes: Notes, *, lenses: 
             parts.append(f"hfov: {camera.hfov:.4f} deg")
         if camera.hold > 0.0:
             parts.append(f"hold: {camera.hold:.3f}")
-        if timed and asked.times and camera.time is not None:
+        if timed and options.times and camera.time is not None:
             parts.append(f"time: {camera.time - (take.cameras[0].time or 0.0):.3f}")
         yield f"      - {{{', '.join(parts)}}}"
 

@@ -72,14 +72,14 @@ class _Run:
 
 def plan(data: bytes, name: str) -> Waypoints:
     """Return the points of a ``.plan``."""
-    found = opened(data, name)
-    if isinstance(found, Refused):
-        raise Unread(found._replace(code=FOREIGN if found.code == "I002" else UNREADABLE))
-    firmware = found.mission.get("firmwareType")
+    document = opened(data, name)
+    if isinstance(document, Refused):
+        raise Unread(document._replace(code=FOREIGN if document.code == "I002" else UNREADABLE))
+    firmware = document.mission.get("firmwareType")
     if firmware not in (PX4, ARDUPILOT):
         message = f"its `firmwareType` is {plain(str(firmware), 20)}; PX4 is {PX4}, ArduPilot {ARDUPILOT}"
-        refuse(FOREIGN, message, node_at(found.document, "mission", "firmwareType"))
-    return _flown(found.whole, list(_of_plan(found)), "px4" if firmware == PX4 else "ardupilot")
+        refuse(FOREIGN, message, node_at(document.document, "mission", "firmwareType"))
+    return _flown(document.whole, list(_of_plan(document)), "px4" if firmware == PX4 else "ardupilot")
 
 
 def table(text: str) -> Waypoints:
@@ -105,9 +105,9 @@ def _row(line: str, index: int) -> FlightCommand:
     return FlightCommand(node, f"item {known[0]:.0f}", int(known[3]), int(known[2]), tuple(known[4:11]))
 
 
-def _of_plan(found: Opened) -> Iterator[FlightCommand]:
-    for i, item in enumerate(found.items):
-        node = node_at(found.document, "mission", "items", i)
+def _of_plan(document: Opened) -> Iterator[FlightCommand]:
+    for i, item in enumerate(document.items):
+        node = node_at(document.document, "mission", "items", i)
         inner = item.get("TransectStyleComplexItem") if isinstance(item, dict) else None
         listed = inner.get("Items") if isinstance(inner, dict) else None
         if isinstance(listed, list):  # a survey contains the items that it generates
@@ -187,8 +187,8 @@ def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
 def _pass(run: _Run, point: FlightPoint) -> None:
     """Add a point. The speeds in force become the pace of the point before it."""
     if run.points:
-        told = run.pace if run.pace != Pace() else None
-        run.points[-1] = _stayed(run.points[-1], run)._replace(pace=told)
+        pace = run.pace if run.pace != Pace() else None
+        run.points[-1] = _stayed(run.points[-1], run)._replace(pace=pace)
         run.pitches = ()
     run.points.append(point)
 

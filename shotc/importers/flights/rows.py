@@ -79,11 +79,11 @@ class DroneRows:
 
     def values(self, *names: str) -> Array | None:
         """Return columns as numbers, shape (N, k); None if one is absent, or empty in all rows."""
-        found = [self.texts(name) for name in names]
-        if any(column is None or not any(column) for column in found):
+        columns = [self.texts(name) for name in names]
+        if any(column is None or not any(column) for column in columns):
             return None
         out = np.empty((len(self.lines), len(names)))
-        for k, cells in enumerate(found):
+        for k, cells in enumerate(columns):
             for i, text in enumerate(cells or ()):
                 value = number(text)
                 if value is None:
@@ -117,7 +117,7 @@ def rows(text: str) -> tuple[DroneRows, ...]:
     moves = all(name in columns for name in VELOCITY)
     values = numbers_of(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
     drones = [_cell(line, columns[DRONE]) for line in body] if DRONE in columns else [""] * len(body)
-    found = tuple(
+    tables = tuple(
         DroneRows(
             name,
             tuple(numbers[i] for i in index),
@@ -129,18 +129,18 @@ def rows(text: str) -> tuple[DroneRows, ...]:
         )
         for name, index in _of_drones(drones).items()
     )
-    for each in found:
+    for each in tables:
         check_order(each)
-    if not found:
+    if not tables:
         refuse(BROKEN, "it has no row", start)
-    return found
+    return tables
 
 
 def _of_drones(names: Sequence[str]) -> dict[str, list[int]]:
-    found: dict[str, list[int]] = {}
+    indices: dict[str, list[int]] = {}
     for i, name in enumerate(names):
-        found.setdefault(name, []).append(i)
-    return found
+        indices.setdefault(name, []).append(i)
+    return indices
 
 
 def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) -> Array:
@@ -162,17 +162,17 @@ def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]
     refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
 
 
-def check_order(found: DroneRows) -> None:
+def check_order(table: DroneRows) -> None:
     """Refuse rows that are no flight: too few rows, or times that do not rise."""
-    if len(found.time) < 2:
-        refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))
-    if found.time[0] < 0.0:
-        refuse(BROKEN, f"it begins at {found.time[0]:g} s, before the mission does", found.node(0))
-    if found.time[-1] > LONGEST_S:
-        last = len(found.time) - 1
-        refuse(BROKEN, f"it lasts until {found.time[-1]:g} s, which is no flight", found.node(last))
-    for i, (a, b) in enumerate(pairwise(found.time.tolist())):
+    if len(table.time) < 2:
+        refuse(BROKEN, "a drone has one row, and a flight takes two", table.node(0))
+    if table.time[0] < 0.0:
+        refuse(BROKEN, f"it begins at {table.time[0]:g} s, before the mission does", table.node(0))
+    if table.time[-1] > LONGEST_S:
+        last = len(table.time) - 1
+        refuse(BROKEN, f"it lasts until {table.time[-1]:g} s, which is no flight", table.node(last))
+    for i, (a, b) in enumerate(pairwise(table.time.tolist())):
         if b - a < SHORTEST_S:
             refuse(
-                BROKEN, f"its time, {b:g} s, does not come after that before it, {a:g} s", found.node(i + 1)
+                BROKEN, f"its time, {b:g} s, does not come after that before it, {a:g} s", table.node(i + 1)
             )

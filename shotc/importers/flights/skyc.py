@@ -102,31 +102,31 @@ def show(data: bytes, *, lit: bool = False) -> SkycShow:
     return SkycShow(flights, _origin(location.get("origin")))
 
 
-def _origin(told: Any) -> tuple[float, float, float | None] | None:
-    if told is None:
+def _origin(value: Any) -> tuple[float, float, float | None] | None:
+    if value is None:
         return None
-    if not isinstance(told, list) or len(told) < 2 or not all(map(_is_number, told[:2])):
+    if not isinstance(value, list) or len(value) < 2 or not all(map(_is_number, value[:2])):
         refuse(BROKEN, "its `environment.location.origin` is no latitude and longitude", WHOLE)
-    lat, lon = float(told[0]), float(told[1])
+    lat, lon = float(value[0]), float(value[1])
     if not is_place(lat, lon):
         refuse(BROKEN, f"its origin is at {lat:g}, {lon:g} deg, which is no latitude and longitude", WHOLE)
-    return lat, lon, float(told[2]) if len(told) > 2 and _is_number(told[2]) else None
+    return lat, lon, float(value[2]) if len(value) > 2 and _is_number(value[2]) else None
 
 
 def _part(archive: Archive, name: str) -> Any:
     """Return the JSON value of a part of the archive."""
-    found = archive.member(name)
-    if isinstance(found, str):
-        refuse(UNREADABLE, found, WHOLE)
+    data = archive.member(name)
+    if isinstance(data, str):
+        refuse(UNREADABLE, data, WHOLE)
     try:
-        return json.loads(found)
+        return json.loads(data)
     except (ValueError, RecursionError) as fault:
         refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE)
 
 
 def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
-    found = parent.get(key)
-    return found if isinstance(found, dict) else {}
+    value = parent.get(key)
+    return value if isinstance(value, dict) else {}
 
 
 def _resolved(archive: Archive, value: Any) -> Any:
@@ -149,8 +149,8 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
     if not isinstance(path, dict) or path.get("version") != 1:
         refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
     keys, begin = _keys(path, where)
-    told = settings.get("home")
-    home = told if _is_place(told) else keys[0][1]
+    value = settings.get("home")
+    home = value if _is_place(value) else keys[0][1]
     times = np.array([key[0] for key in keys]) + begin
     curves = [[a[1], *b[2], b[1]] for a, b in pairwise(keys)]
     if times[0] > 0.0:  # the drone stands until its first key
@@ -169,9 +169,9 @@ def _light(archive: Archive, settings: dict[str, Any], element: str, end: float)
     lights, where = _resolved(archive, settings.get("lights")), f"{element}.settings.lights"
     if lights is None:
         return None
-    told = lights.get("data") if isinstance(lights, dict) and lights.get("version") == 1 else None
+    data = lights.get("data") if isinstance(lights, dict) and lights.get("version") == 1 else None
     try:
-        program = b64decode(told, validate=True) if isinstance(told, str) else None
+        program = b64decode(data, validate=True) if isinstance(data, str) else None
     except ValueError:
         program = None
     if program is None:
@@ -209,12 +209,12 @@ def _key(point: Any, where: str) -> Key:
 
 def _cubics(curves: list[list[list[float]]]) -> Array:
     """Return the control points (P, 4, 3) of curves of degree one to three."""
-    found = np.empty((len(curves), DEGREE + 1, 3))
+    cubics = np.empty((len(curves), DEGREE + 1, 3))
     counts = np.array([len(points) for points in curves])
     for count in np.unique(counts):
         some = np.flatnonzero(counts == count)
-        found[some] = _raised(np.array([curves[k] for k in some], dtype=float))
-    return found
+        cubics[some] = _raised(np.array([curves[k] for k in some], dtype=float))
+    return cubics
 
 
 def _raised(ctrl: Array) -> Array:

@@ -45,10 +45,10 @@ def text_of(data: bytes) -> bytes:
     """Return the XML of a file; for a ``.kmz``, that of its waylines."""
     if not data.startswith(MAGIC):
         return data
-    found = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST_BYTES)
-    if isinstance(found, str):
-        refuse(UNREADABLE, found, Node("", 1, 1, wide=1))
-    return found
+    inside = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST_BYTES)
+    if isinstance(inside, str):
+        refuse(UNREADABLE, inside, Node("", 1, 1, wide=1))
+    return inside
 
 
 def waypoints(data: bytes) -> Waypoints:
@@ -62,7 +62,7 @@ def waypoints(data: bytes) -> Waypoints:
         message = f"it has {len(folders)} waylines in folders, and one is flown"
         refuse(FOREIGN, message, folders[1] if folders else root)
     folder = folders[0]
-    mode = _told(folder, "executeHeightMode")
+    mode = _inner(folder, "executeHeightMode")
     if mode is None or mode.text.strip() not in LEVELS:
         said = "nothing" if mode is None else f"`{plain(mode.text.strip(), 30)}`"
         message = f"heights count by {said} (`executeHeightMode`), which nothing here ties to the ground"
@@ -70,7 +70,7 @@ def waypoints(data: bytes) -> Waypoints:
     usual = _number(folder, "autoFlightSpeed")
     marks = [node for node in folder.children if local(node) == "Placemark"]
     points = tuple(_point(mark, i, usual) for i, mark in enumerate(marks))
-    ending = _told(root, "finishAction")
+    ending = _inner(root, "finishAction")
     what = "noAction" if ending is None else ending.text.strip()
     if what not in ENDINGS:
         refuse(BROKEN, f"`{plain(what, 30)}` is no `finishAction`", ending or root)
@@ -106,7 +106,7 @@ def _version(root: Node) -> None:
 
 def _point(mark: Node, index: int, usual: float | None) -> FlightPoint:
     name = f"waypoint {index + 1}"
-    where = _told(mark, "coordinates")
+    where = _inner(mark, "coordinates")
     parts = [] if where is None else where.text.strip().split(",")
     if where is None or len(parts) < 2:
         refuse(BROKEN, f"{name} has no `coordinates`, longitude and latitude", where or mark)
@@ -117,8 +117,8 @@ def _point(mark: Node, index: int, usual: float | None) -> FlightPoint:
         refuse(BROKEN, f"{name} has no `executeHeight`", mark)
     speed = _number(mark, "waypointSpeed")
     speed = usual if speed is None else speed
-    told = _told(mark, "waypointTurnMode")
-    turn = "" if told is None else told.text.strip()
+    mode = _inner(mark, "waypointTurnMode")
+    turn = "" if mode is None else mode.text.strip()
     straight = (_number(mark, "useStraightLine") or 0.0) > 0.0 or turn in STRAIGHT
     return FlightPoint(
         where,
@@ -141,7 +141,7 @@ def _pitches(mark: Node) -> Iterator[float]:
         yield from _numbers(mark, tag)
 
 
-def _told(node: Node, tag: str) -> Node | None:
+def _inner(node: Node, tag: str) -> Node | None:
     return next((inner for inner in node.everything() if local(inner) == tag), None)
 
 

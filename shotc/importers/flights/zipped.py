@@ -49,25 +49,25 @@ class _Table(NamedTuple):
 
 def tables(data: bytes) -> tuple[DroneRows, ...]:
     """Return the rows of each drone, in the order of the tables in the archive."""
-    found: dict[str, DroneRows] = {}
+    by_drone: dict[str, DroneRows] = {}
     left = MOST_ROWS
     for member in members(data, _is_table, LARGEST_CLOCKED_BYTES):
         if isinstance(member, str):
             refuse(UNREADABLE, member, WHOLE)
-        if len(found) == MOST_DRONES:
+        if len(by_drone) == MOST_DRONES:
             refuse(UNREADABLE, f"it has more than {MOST_DRONES} tables, and no more are read", WHOLE, SPLIT)
         table = _Table(plain(member[0], 80), shown(member[1]))
         try:
-            rows = _rows(table, left, found)
+            rows = _rows(table, left, by_drone)
         except Unread as stopped:
             raise UnreadMember(stopped.refused, table.name, table.text) from None
         left -= len(rows.lines)
-        found[rows.drone] = rows
-    if not found:
+        by_drone[rows.drone] = rows
+    if not by_drone:
         help_ = f"give a ZIP with a CSV file for each drone, whose rows are `{EXAMPLE}`"
         refuse(FOREIGN, "it is an archive without a CSV file", WHOLE, help_)
-    _all_land(tuple(found.values()))
-    return tuple(found.values())
+    _all_land(tuple(by_drone.values()))
+    return tuple(by_drone.values())
 
 
 def _is_table(name: str) -> bool:
@@ -133,11 +133,11 @@ def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
         refuse(BROKEN, message, rows.node(i))
 
 
-def _all_land(found: tuple[DroneRows, ...]) -> None:
+def _all_land(shown: tuple[DroneRows, ...]) -> None:
     """Refuse a show in which the table of a drone ends in the air before the others end."""
-    longest = max(found, key=lambda rows: float(rows.time[-1]))
+    longest = max(shown, key=lambda rows: float(rows.time[-1]))
     end = float(longest.time[-1])
-    for rows in found:
+    for rows in shown:
         above = float(rows.place[-1, 2] - rows.place[0, 2])
         if rows.time[-1] < end - EARLY_S and above > LANDED_M:
             last = rows.node(len(rows.lines) - 1)

@@ -51,15 +51,15 @@ def fly_through(task: RoleTask) -> Made:
     """Return a camera that flies along the trajectory, and pans by the file's angles or looks ahead."""
     z, low = task.altitude()
     points, frame = task.action.points, task.frame
-    way = [frame.place(point) for point in points]
-    if len(way) < 2 or hypot(way[-1][0] - way[0][0], way[-1][1] - way[0][1]) < 1.0:
+    places = [frame.place(point) for point in points]
+    if len(places) < 2 or hypot(places[-1][0] - places[0][0], places[-1][1] - places[0][1]) < 1.0:
         message = "a fly-through without a way"
         still = task.notes.assume(task.action.node, message, "a still camera at the origin of the formation")
         made = static(task)
         return made._replace(comments=(still, *made.comments))
-    path = ((*way[0], z), (*way[len(way) // 2], z), (*way[-1], z))
+    path = ((*places[0], z), (*places[len(places) // 2], z), (*places[-1], z))
     if _turned(task.role):
-        rows, said = _panned(task, [(frame.written(p, z), _course(way, i)) for i, p in enumerate(points)])
+        rows, said = _panned(task, [(frame.written(p, z), _course(places, i)) for i, p in enumerate(points)])
         return Made("keyframes", rows, path, (*low, *said), watches=False)
     joined = ", ".join(frame.written(p, z) for p in points)
     ahead = task.assume("a fly-through without pan and tilt", "the camera looks along the way, level")
@@ -88,10 +88,10 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         said = (*said, task.notes.assume(node, message, "the camera keeps to the way"))
         pans = (0.0, 0.0)
     rows, last = [], None
-    for i, (at, way) in enumerate(poses):
+    for i, (at, course) in enumerate(poses):
         share = i / (len(poses) - 1)
         pan, tilt = (a + share * (b - a) for a, b in (pans, tilts))
-        heading = 90.0 - degrees(way) - pan
+        heading = 90.0 - degrees(course) - pan
         if last is not None and not _sweeps(pans):
             heading += 360.0 * round((last - heading) / 360.0)
         last = heading
@@ -117,10 +117,10 @@ def _sweeps(pans: tuple[float, float]) -> bool:
     return abs(pans[1] - pans[0]) >= 180.0
 
 
-def _course(way: list[Place], i: int) -> float:
+def _course(places: list[Place], i: int) -> float:
     """Return the course from a point to the next, rad, counter-clockwise from East."""
-    k = min(i, len(way) - 2)
-    legs = [(q[0] - p[0], q[1] - p[1]) for p, q in pairwise(way)]
+    k = min(i, len(places) - 2)
+    legs = [(q[0] - p[0], q[1] - p[1]) for p, q in pairwise(places)]
     x, y = next((leg for leg in (*legs[k:], *legs[k::-1]) if hypot(*leg) > 1e-3), (0.0, 1.0))
     return atan2(y, x)
 

@@ -83,45 +83,45 @@ def frame_of(sequences: Rows[Sequence], notes: Notes) -> CoordinateFrame:
     if not local:
         return CoordinateFrame(earthly[0].at, True, _elsewhere(actions, notes))
     message = f"{len(local)} points in metres stand beside {len(earthly)} in latitude and longitude"
-    found = next((o for o in map(_anchor, actions) if o is not None), None)
+    anchor = next((o for o in map(_anchor, actions) if o is not None), None)
     how = "where the map (KML) of the same action shows the first of them"
-    if found is None:
-        found, how = earthly[0].at, "and no map says where they count from: the first place on the earth"
-    taken = f"metres count from {_degrees(found[0])}, {_degrees(found[1])}, {how}"
-    return CoordinateFrame(found, False, (notes.assume(local[0].node, message, taken),))
+    if anchor is None:
+        anchor, how = earthly[0].at, "and no map says where they count from: the first place on the earth"
+    taken = f"metres count from {_degrees(anchor[0])}, {_degrees(anchor[1])}, {how}"
+    return CoordinateFrame(anchor, False, (notes.assume(local[0].node, message, taken),))
 
 
 def _unplaced(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
     """Return a comment if the file has a map but its points are in metres without an origin."""
-    found = next((d for d in map(drawn, actions) if d is not None), None)
-    if found is None:
+    trajectory = next((d for d in map(drawn, actions) if d is not None), None)
+    if trajectory is None:
         return ()
     message = "a map (KML) in the description shows a trajectory on the earth, but the points are in metres"
     taken = "the metres hold, and `world.origin` is left out: add it for flight plans"
-    return (notes.assume(found.node, message, taken),)
+    return (notes.assume(trajectory.node, message, taken),)
 
 
 def _elsewhere(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
     """Return a comment for each map that shows another place than the points."""
     said = []
     for action in actions:
-        found = drawn(action)
-        if found is None or not action.points:
+        trajectory = drawn(action)
+        if trajectory is None or not action.points:
             continue
         first = action.points[0].at
-        off = min(dist((0.0, 0.0), _world(p, first)) for p in found.points)
+        off = min(dist((0.0, 0.0), _world(p, first)) for p in trajectory.points)
         if off > AWAY_M:
             message = f"the map (KML) in the description begins {off:.0f} m from the trajectory"
-            said.append(notes.assume(found.node, message, "the points of the trajectory hold"))
+            said.append(notes.assume(trajectory.node, message, "the points of the trajectory hold"))
     return tuple(said)
 
 
 def _anchor(action: ShootingAction) -> Place | None:
     """Return the latitude and longitude of W's origin from the map of an action with both kinds of points."""
-    found = drawn(action)
-    if found is None or len(found.points) != len(action.points):
+    trajectory = drawn(action)
+    if trajectory is None or len(trajectory.points) != len(action.points):
         return None
-    pairs = list(zip(action.points, found.points, strict=True))
+    pairs = list(zip(action.points, trajectory.points, strict=True))
     known = [(p.at, on_map) for p, on_map in pairs if p.on_earth]
     local = [(p.at, on_map) for p, on_map in pairs if not p.on_earth]
     if not known or not local or any(dist((0, 0), _world(a, b)) > AGREES_M for a, b in known):

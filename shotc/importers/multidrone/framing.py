@@ -76,8 +76,8 @@ def _third(course: GroundTrack, camera: Place, t: float) -> tuple[str, str]:
     if not course.moves(t):
         return "left-third", "for the target stands, and either side will do"
     x, y = course.at(t)
-    view, way = (x - camera[0], y - camera[1]), course.heading(t)
-    across = (view[0] * sin(way) - view[1] * cos(way)) / max(hypot(*view), 1e-6)
+    view, heading = (x - camera[0], y - camera[1]), course.heading(t)
+    across = (view[0] * sin(heading) - view[1] * cos(heading)) / max(hypot(*view), 1e-6)
     if abs(across) < ASIDE_SINE:
         return "lower-third", "for the target moves along the view, and its way lies above it"
     if across > 0:

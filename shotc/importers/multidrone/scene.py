@@ -53,7 +53,7 @@ def targets(films: Rows[FilmedAction], root: Node, frame: CoordinateFrame, notes
     body = f"radius: {radius:g}, height: {height:g}}}"
     for target, course in courses.items():
         ways = [f.action.node.first("RTTrajectory") for f in films if f.target == target]
-        more = [said for way in ways if way is not None for said in notes.below(way)]
+        more = [said for route in ways if route is not None for said in notes.below(route)]
         said = dict.fromkeys(comment for comment in (*course.comments, *more) if comment not in ground)
         yield from (f"  # {comment}" for comment in said)
         yield from _target(target, course, [frame.written(p, height / 2) for p in course.points], body)
@@ -93,15 +93,15 @@ def drones(films: Rows[FilmedAction], number: int, root: Node, notes: Notes) -> 
     yield "drones:"
     yield f"  # {notes.assume(root.first('droneTeam') or root, message, taken)}"
     course = films[0].course
-    way = course.heading(0.0)
+    heading = course.heading(0.0)
     x, y = course.places[0]
-    aside = {f.first + k for f in films if not f.main for k in range(len(f.action.roles))}
-    order = sorted(range(1, number + 1), key=lambda drone: drone in aside)
+    secondary = {f.first + k for f in films if not f.main for k in range(len(f.action.roles))}
+    order = sorted(range(1, number + 1), key=lambda drone: drone in secondary)
     for i in range(number):
         along = HOMES_APART_M * (i - 0.5 * (number - 1))
         home = (
-            x + along * cos(way) - HOMES_AWAY_M * sin(way),
-            y + along * sin(way) + HOMES_AWAY_M * cos(way),
+            x + along * cos(heading) - HOMES_AWAY_M * sin(heading),
+            y + along * sin(heading) + HOMES_AWAY_M * cos(heading),
         )
         named = f"  # {plain(team[i].value('name'), 60)}" if i < len(team) else ""
         place, rank = written(home, 0.0), order.index(i + 1) + 1

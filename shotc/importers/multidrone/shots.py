@@ -98,7 +98,7 @@ def _orbit(task: RoleTask) -> Made:
     # Counter-clockwise from the target's course; shotc uses a compass bearing.
     bearing = degrees(pi / 2 - task.course.heading(task.start) - begin) % 360
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
-    begins, halfway, ends = (
+    first, halfway, ends = (
         task.beside(
             (away * cos(begin + s * sweep), away * sin(begin + s * sweep), z), task.start + s * task.duration
         )
@@ -106,7 +106,7 @@ def _orbit(task: RoleTask) -> Made:
     )
     params = f"radius: {away:g}, altitude: {z:g}, {turned}"
     said = "the side on which a target leaves room changes in an orbit: it is that of the middle of the shot"
-    return Made("orbit", params, (begins, halfway, ends), (*one, *two, *three, *low, *near, said), not one)
+    return Made("orbit", params, (first, halfway, ends), (*one, *two, *three, *low, *near, said), not one)
 
 
 def _establish(task: RoleTask) -> Made:
@@ -116,17 +116,17 @@ def _establish(task: RoleTask) -> Made:
     last, lowest = task.altitude("z_e")
     heading = task.course.heading(task.start)
     bearing = degrees(pi / 2 - heading + (pi if far < 0 else 0.0)) % 360
-    begins, apart = _apart(task, abs(far))
+    begin, apart = _apart(task, abs(far))
     ends, close = _apart(task, abs(near))
-    if max(abs(ends - begins), abs(last - high)) < NEARER_M / 2:
+    if max(abs(ends - begin), abs(last - high)) < NEARER_M / 2:
         close = (
             *close,
             task.assume("an approach that goes nowhere", f"it begins {NEARER_M:g} m farther away"),
         )
-        begins += NEARER_M
-    params = f"azimuth: {bearing:.1f} deg, distance: [{begins:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
+        begin += NEARER_M
+    params = f"azimuth: {bearing:.1f} deg, distance: [{begin:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
     side = -1.0 if far < 0 else 1.0
-    path = task.along((side * begins, 0.0, high), (side * ends, 0.0, last))
+    path = task.along((side * begin, 0.0, high), (side * ends, 0.0, last))
     kept: Said = ()
     if not task.course.stands:
         kept = (

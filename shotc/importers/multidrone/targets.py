@@ -47,7 +47,7 @@ class GroundTrack(NamedTuple):
             for (_, b), (p, q) in zip(pairwise(self.times), pairwise(self.places), strict=True)
             if dist(p, q) >= SAME_POINT_M
         ]
-        return next((way for end, way in legs if t < end), legs[-1][1] if legs else pi / 2)
+        return next((heading for end, heading in legs if t < end), legs[-1][1] if legs else pi / 2)
 
     def at(self, t: float) -> Place:
         """Return the position at a time. The target stands before and after its course."""
@@ -64,8 +64,8 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
     The course is None if an action films no target, or gives no position for it.
     """
     runs: list[_Run] = []
-    found: list[int | None] = []
-    begins = LEAD_S
+    indices: list[int | None] = []
+    start = LEAD_S
     for action in sequence.actions:
         points, said = list(action.points), []
         if not points and action.origin is not None:
@@ -73,10 +73,10 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
             said.append(notes.assume(action.node, "an action without a trajectory", taken))
             points = [action.origin]
         if not points or action.flies:
-            found.append(None)
+            indices.append(None)
         else:
-            follows = begins
-            if runs and begins < runs[-1].times[-1] - OVERLAP_S:
+            follows = start
+            if runs and start < runs[-1].times[-1] - OVERLAP_S:
                 follows = runs[-1].times[-1]
                 message = "the trajectory before lasts longer than its action"
                 said.append(notes.assume(action.node, message, "it is finished first"))
@@ -85,10 +85,10 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
             if not runs or not runs[-1].takes_up(clock[0], places[0]):
                 runs.append(_Run([], [], [], []))
             runs[-1].add(clock, places, points, said)
-            found.append(len(runs) - 1)
-        begins += action.duration
+            indices.append(len(runs) - 1)
+        start += action.duration
     courses = [GroundTrack(tuple(r.times), tuple(r.places), tuple(r.points), tuple(r.comments)) for r in runs]
-    return tuple(None if k is None else courses[k] for k in found)
+    return tuple(None if k is None else courses[k] for k in indices)
 
 
 class _Run(NamedTuple):
@@ -116,11 +116,11 @@ class _Run(NamedTuple):
             self.points.append(point)
 
 
-def route_of(action: ShootingAction, frame: CoordinateFrame, begins: float) -> GroundTrack:
+def route_of(action: ShootingAction, frame: CoordinateFrame, start: float) -> GroundTrack:
     """Return the course of a fly-through's camera, with points evenly spaced over the action's time."""
     points = action.points or ((action.origin,) if action.origin else ())
     share = action.duration / max(len(points) - 1, 1)
-    times = tuple(begins + i * share for i in range(len(points)))
+    times = tuple(start + i * share for i in range(len(points)))
     return GroundTrack(times, tuple(frame.place(p) for p in points), points, ())
 
 
@@ -133,19 +133,19 @@ def _clock(
     action: ShootingAction,
     points: list[MissionPoint],
     places: list[Place],
-    begins: float,
+    start: float,
     said: list[str],
     notes: Notes,
 ) -> list[float]:
     """Return the mission time of each point: from the file if plausible, else from the speed."""
     ways = [dist(p, q) for p, q in pairwise(places)]
     if sum(ways) < SAME_POINT_M:
-        return [begins] * len(points)
+        return [start] * len(points)
     given = [p.time for p in points if p.time is not None]
     wrong = _wrong(points, given, ways)
     if wrong is None:
         _compare(action, sum(ways) / (given[-1] - given[0]), said, notes)
-        return [begins + t - given[0] for t in given]
+        return [start + t - given[0] for t in given]
     node, message = wrong
     if action.speed is not None and SLOWEST_M_S <= action.speed <= FASTEST_M_S:
         pace, taken = (
@@ -155,9 +155,9 @@ def _clock(
     else:
         pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is of no use"
     said.append(notes.assume(node.node.first("time") or node.node, message, taken))
-    clock = [begins]
-    for way in ways:
-        clock.append(clock[-1] + max(way / pace, 0.1))
+    clock = [start]
+    for length in ways:
+        clock.append(clock[-1] + max(length / pace, 0.1))
     return clock
 
 
@@ -170,11 +170,11 @@ def _wrong(
         return missing, "a point of the trajectory has no time"
     if not any(given):
         return points[0], "the times of the trajectory are all 0"
-    for (a, b), way, point in zip(pairwise(given), ways, points[1:], strict=True):
+    for (a, b), length, point in zip(pairwise(given), ways, points[1:], strict=True):
         if b <= a:
             return point, f"the times of the trajectory do not rise: {b:g} s follows {a:g} s"
-        if way / (b - a) > FASTEST_M_S:
-            return point, f"the times ask for {way / (b - a):.0f} m/s up to this point"
+        if length / (b - a) > FASTEST_M_S:
+            return point, f"the times ask for {length / (b - a):.0f} m/s up to this point"
     return None
 
 

@@ -84,5 +84,9 @@ class RoleTask(NamedTuple):
 
     def beside(self, spot: Vec3, t: float) -> Vec3:
         """Return the position in W at ``spot``: ahead of the target, to its left, height above ground."""
-        (x, y), way, (ahead, left, z) = self.course.at(t), self.course.heading(t), spot
-        return (x + ahead * cos(way) - left * sin(way), y + ahead * sin(way) + left * cos(way), z)
+        (x, y), heading, (ahead, left, z) = self.course.at(t), self.course.heading(t), spot
+        return (
+            x + ahead * cos(heading) - left * sin(heading),
+            y + ahead * sin(heading) + left * cos(heading),
+            z,
+        )

@@ -25,13 +25,13 @@ def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -
     ended: dict[int, Vec3] = {}
     for film in films:
         unheard = Notes()
-        asked = _cut(film, 0.0, unheard)
-        begins = [shot_of(task_of(asked, role, frame, unheard)).path[0] for role in film.action.roles]
-        ways = [dist(ended[k], at) for k, at in enumerate(begins, film.first) if k in ended]
-        found = _cut(film, round(SETTLE + max(ways) / PACE, 1) if ways else 0.0, notes)
+        uncut = _cut(film, 0.0, unheard)
+        starts = [shot_of(task_of(uncut, role, frame, unheard)).path[0] for role in film.action.roles]
+        ways = [dist(ended[k], at) for k, at in enumerate(starts, film.first) if k in ended]
+        cut = _cut(film, round(SETTLE + max(ways) / PACE, 1) if ways else 0.0, notes)
         for k, role in enumerate(film.action.roles, film.first):
-            ended[k] = shot_of(task_of(found, role, frame, unheard)).path[2]
-        yield found
+            ended[k] = shot_of(task_of(cut, role, frame, unheard)).path[2]
+        yield cut
 
 
 def task_of(film: FilmedAction, role: Role, frame: CoordinateFrame, notes: Notes) -> RoleTask:
@@ -59,8 +59,10 @@ def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
     goes_along = any(role.kind.replace(" ", "_") not in WATCHING for role in action.roles)
     if goes_along and not film.course.stands and SHORTEST_S < known < duration - OVERLAP_S:
         node = action.node.first("duration") or action.node
-        told = film.course.times[-1] - film.start
-        message = f"the action lasts {action.duration:g} s, the way of its target is told for {told:.1f} s"
+        course_s = film.course.times[-1] - film.start
+        message = (
+            f"the action lasts {action.duration:g} s, the way of its target is told for {course_s:.1f} s"
+        )
         said.append(notes.assume(node, message, "the shot ends with the way"))
         duration = round(known, 2)
     return film._replace(start=start, duration=duration, comments=tuple(said))

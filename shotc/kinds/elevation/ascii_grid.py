@@ -120,11 +120,11 @@ def _first(values: dict[str, float], axis: int, step: float) -> float:
 def _heights(lines: list[str], skipped: int, shape: tuple[int, int]) -> Array | TerrainFault:
     body = lines[skipped:]
     try:  # fast path: one line for each row, and only numbers
-        found = np.loadtxt(io.StringIO("\n".join(body)), dtype=np.float64, ndmin=2, comments=None)
+        heights = np.loadtxt(io.StringIO("\n".join(body)), dtype=np.float64, ndmin=2, comments=None)
     except ValueError:
-        found = np.zeros((0, 0))
-    if found.shape == shape and np.isfinite(found).all():
-        return found
+        heights = np.zeros((0, 0))
+    if heights.shape == shape and np.isfinite(heights).all():
+        return heights
     return _word_by_word(body, skipped, shape)
 
 

@@ -57,10 +57,10 @@ def _places(values: Array) -> tuple[Array, IntArray]:
     """Return the increasing coordinates along an axis, gaps filled, and the index of each value."""
     order = np.argsort(values, kind="stable")
     ordered = values[order]
-    begins = np.concatenate([[True], np.diff(ordered) > SAME_PLACE_SHARE * (ordered[-1] - ordered[0])])
+    is_first = np.concatenate([[True], np.diff(ordered) > SAME_PLACE_SHARE * (ordered[-1] - ordered[0])])
     number = np.empty(len(values), dtype=np.intp)
-    number[order] = np.cumsum(begins) - 1
-    there = ordered[begins]
+    number[order] = np.cumsum(is_first) - 1
+    there = ordered[is_first]
     gaps = np.diff(there)
     if not len(gaps):
         return there, number

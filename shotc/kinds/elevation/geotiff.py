@@ -137,9 +137,9 @@ def _system(keys: dict[int, int], given: int | None) -> int | TerrainFault:
         return TerrainFault("system", message, None, "leave `epsg` out")
     if PROJECTED not in keys and keys.get(ANGLES, DEGREE_UNIT) != DEGREE_UNIT:
         return TerrainFault("system", f"its angles are in the unit {keys[ANGLES]} of EPSG, not in degrees")
-    found = code if code is not None else given
-    assert found is not None
-    return found
+    epsg = code if code is not None else given
+    assert epsg is not None
+    return epsg
 
 
 def _axes(tags: dict[int, Any], at_points: bool) -> tuple[Along, Along] | TerrainFault:
@@ -150,18 +150,18 @@ def _axes(tags: dict[int, Any], at_points: bool) -> tuple[Along, Along] | Terrai
             if b != 0.0 or d != 0.0:
                 help_ = "turn it upright: `gdalwarp`"
                 return TerrainFault("grid", "its rows and columns are turned", None, help_)
-            found = Along(x + half * a, a), Along(y + half * e, e)
+            axes = Along(x + half * a, a), Along(y + half * e, e)
         elif PIXEL_SCALE in tags and TIE_POINTS in tags:
             i, j, _, x, y, _ = (float(v) for v in tags[TIE_POINTS][:6])
             a, e = (float(v) for v in tags[PIXEL_SCALE][:2])
-            found = Along(x + (half - i) * a, a), Along(y - (half - j) * e, -e)
+            axes = Along(x + (half - i) * a, a), Along(y - (half - j) * e, -e)
         else:
             return TerrainFault("format", "it has no tags that say where it is: it is a plain TIFF")
     except (TypeError, ValueError):
         return TerrainFault("format", "its tags that say where it is are damaged")
-    if not all(np.isfinite(along).all() and along.step for along in found):
+    if not all(np.isfinite(along).all() and along.step for along in axes):
         return TerrainFault("number", "its tags give posts no finite places")
-    return found
+    return axes
 
 
 def _mark_unknown(raster: HeightRaster) -> TerrainFault | None:

@@ -59,7 +59,7 @@ def read_geojson(data: bytes) -> FeatureCollection | FileFault:
     features = _features(value)
     if isinstance(features, FileFault):
         return features
-    found: list[Footprint] = []
+    footprints: list[Footprint] = []
     others: Counter[str] = Counter()
     for number, feature in enumerate(features, 1):
         try:
@@ -69,10 +69,10 @@ def read_geojson(data: bytes) -> FeatureCollection | FileFault:
                 continue
             tags, called = _tags(feature), _called(feature)
             name = next(iter(called), f"feature {number}")
-            found += [Footprint(ring, tags, name, number, called) for ring in map(_ring, rings)]
+            footprints += [Footprint(ring, tags, name, number, called) for ring in map(_ring, rings)]
         except _Wrong as wrong:
             return FileFault(f"feature {number}: {wrong}", None, _EXPORT)
-    return FeatureCollection(tuple(found), others)
+    return FeatureCollection(tuple(footprints), others)
 
 
 def _parsed(data: bytes) -> Any:

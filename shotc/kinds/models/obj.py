@@ -51,17 +51,17 @@ def read_obj(data: bytes) -> list[NodePart]:
 def _lines(text: str) -> _Lines:
     objects = re.search(r"^o\s", text, re.MULTILINE) is not None
     named = "o" if objects else "g"
-    found = _Lines([], [], [], [("", 0)])
+    parsed = _Lines([], [], [], [("", 0)])
     for line in text.splitlines():
         word = line[:2].rstrip()
         if word == "v":
-            found.corners.append(line)
+            parsed.corners.append(line)
         elif word == "f":
-            found.faces.append(line)
-            found.seen.append(len(found.corners))
+            parsed.faces.append(line)
+            parsed.seen.append(len(parsed.corners))
         elif word == named:
-            found.begins.append((line[2:].strip()[:LONGEST_NAME_CHARACTERS], len(found.faces)))
-    return found
+            parsed.begins.append((line[2:].strip()[:LONGEST_NAME_CHARACTERS], len(parsed.faces)))
+    return parsed
 
 
 def _faces(lines: _Lines, count: int) -> tuple[IntArray, IntArray]:

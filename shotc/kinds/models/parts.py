@@ -59,8 +59,8 @@ def fans(rows: Any) -> IntArray:
             return np.zeros((0, 3), np.intp)
         cut = [np.column_stack([rows[:, 0], rows[:, k], rows[:, k + 1]]) for k in range(1, count - 1)]
         return np.stack(cut, axis=1).reshape(-1, 3).astype(np.intp)
-    found = [(row[0], row[k], row[k + 1]) for row in rows for k in range(1, len(row) - 1)]
-    return np.array(found, dtype=np.intp).reshape(-1, 3)
+    triangles = [(row[0], row[k], row[k + 1]) for row in rows for k in range(1, len(row) - 1)]
+    return np.array(triangles, dtype=np.intp).reshape(-1, 3)
 
 
 def wrong_corners(parts: list[NodePart], farthest: float) -> ModelFault | None:

@@ -47,10 +47,10 @@ class Element(NamedTuple):
 
     def column(self, *names: str) -> int:
         """Return the index of the column with one of these names; raise ValueError if there is none."""
-        found = [i for i, p in enumerate(self.properties) if p.name in names]
-        if not found:
+        indices = [i for i, p in enumerate(self.properties) if p.name in names]
+        if not indices:
             raise ValueError(f"its element {self.name} has no property {names[0]}")
-        return found[0]
+        return indices[0]
 
 
 class PlyHeader(NamedTuple):
@@ -73,11 +73,11 @@ def read_ply(data: bytes) -> list[NodePart]:
         if element.name not in ("vertex", "face"):
             at = rows(data, at, element, header.order, ())[1]
         elif element.name == "vertex":
-            wanted = tuple(element.column(axis) for axis in "xyz")
+            picked = tuple(element.column(axis) for axis in "xyz")
             names = [p.name for p in element.properties if p.type == "u1"]
             own = all(name in names for name in ("red", "green", "blue"))
-            wanted += tuple(element.column(n) for n in ("red", "green", "blue")) if own else ()
-            columns, at = rows(data, at, element, header.order, wanted)
+            picked += tuple(element.column(n) for n in ("red", "green", "blue")) if own else ()
+            columns, at = rows(data, at, element, header.order, picked)
             vertex = np.column_stack(columns[:3])
             colors = np.column_stack(columns[3:]).astype(np.uint8) if own else None
         else:
@@ -139,18 +139,18 @@ _Columns = tuple[list[Any], Any]
 """The wanted columns, and the start of the next element."""
 
 
-def _texts(_: bytes, lines: list[str], element: Element, order: str, wanted: tuple[int, ...]) -> _Columns:
+def _texts(_: bytes, lines: list[str], element: Element, order: str, picked: tuple[int, ...]) -> _Columns:
     del order
     rows, rest = lines[: element.rows], lines[element.rows :]
     if len(rows) < element.rows:
         raise ValueError("it ends too soon")
     if element.plain:
-        return (list(table(rows, wanted).T) if wanted and rows else [np.zeros(0)] * len(wanted)), rest
-    if wanted == (0,) and len(element.properties) == 1:
+        return (list(table(rows, picked).T) if picked and rows else [np.zeros(0)] * len(picked)), rest
+    if picked == (0,) and len(element.properties) == 1:
         same = _lists_as_long(rows)
         if same is not None:
             return [same], rest
-    return [_lists([row.split() for row in rows], element, column) for column in wanted], rest
+    return [_lists([row.split() for row in rows], element, column) for column in picked], rest
 
 
 def _lists_as_long(rows: list[str]) -> IntArray | None:
@@ -186,7 +186,7 @@ def _lists(rows: list[list[str]], element: Element, column: int) -> Any:
     return found
 
 
-def _bytes(data: bytes, at: int, element: Element, order: str, wanted: tuple[int, ...]) -> _Columns:
+def _bytes(data: bytes, at: int, element: Element, order: str, picked: tuple[int, ...]) -> _Columns:
     counts = [] if element.plain else _first_counts(data, at, element, order)
     fields: list[Any] = []
     for i, p in enumerate(element.properties):
@@ -197,15 +197,15 @@ def _bytes(data: bytes, at: int, element: Element, order: str, wanted: tuple[int
     kind = np.dtype(fields)
     end = at + kind.itemsize * element.rows
     if not element.rows or not kind.itemsize:
-        return [np.zeros(0)] * len(wanted), at
+        return [np.zeros(0)] * len(picked), at
     if end <= len(data):
         rows = np.frombuffer(data, kind, element.rows, at)
         lengths = [(f"n{i}", i) for i, p in enumerate(element.properties) if p.length]
         if all((rows[n] == rows[f"p{i}"].shape[1]).all() for n, i in lengths):
-            return [rows[f"p{i}"] for i in wanted], end
+            return [rows[f"p{i}"] for i in picked], end
     elif element.plain:
         raise ValueError("it ends too soon")
-    return _row_by_row(data, at, element, order, wanted)
+    return _row_by_row(data, at, element, order, picked)
 
 
 def _first_counts(data: bytes, at: int, element: Element, order: str) -> list[int]:
@@ -220,9 +220,9 @@ def _first_counts(data: bytes, at: int, element: Element, order: str) -> list[in
     return counts or [0] * len(element.properties)
 
 
-def _row_by_row(data: bytes, at: int, element: Element, order: str, wanted: tuple[int, ...]) -> _Columns:
+def _row_by_row(data: bytes, at: int, element: Element, order: str, picked: tuple[int, ...]) -> _Columns:
     codes = {name: np.dtype(name).char for name in set(TYPES.values())}
-    columns: list[list[Any]] = [[] for _ in wanted]
+    columns: list[list[Any]] = [[] for _ in picked]
     for _ in range(element.rows):
         for i, p in enumerate(element.properties):
             count = 1
@@ -232,8 +232,8 @@ def _row_by_row(data: bytes, at: int, element: Element, order: str, wanted: tupl
             size = np.dtype(p.type).itemsize * int(count)
             if count < 0 or at + size > len(data):
                 raise ValueError("it ends too soon")
-            if i in wanted:
+            if i in picked:
                 row = struct.unpack_from(f"{order or '<'}{int(count)}{codes[p.type]}", data, at)
-                columns[wanted.index(i)].append(list(row) if p.length else row[0])
+                columns[picked.index(i)].append(list(row) if p.length else row[0])
             at += size
     return columns, at

@@ -95,12 +95,12 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
     angles = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
     offsets = np.stack([_centres(camera_task.mission, s, times) - places for s in placed])
-    wanted = np.stack([wanted_places(s, camera_task.start, times) for s in placed])
+    references = np.stack([wanted_places(s, camera_task.start, times) for s in placed])
     for _ in range(MOST_ROUNDS):
-        here = _errors(drone, offsets, wanted, angles)
+        here = _errors(drone, offsets, references, angles)
         slopes = np.stack(
             [
-                (_errors(drone, offsets, wanted, angles + NUDGE_RAD * step) - here) / NUDGE_RAD
+                (_errors(drone, offsets, references, angles + NUDGE_RAD * step) - here) / NUDGE_RAD
                 for step in np.eye(2)
             ],
             axis=2,
@@ -124,31 +124,31 @@ def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: 
     ray = np.stack([u * half, v * half / drone.aspect, np.ones(len(times))])  # right, up, forward
     right, up, forward = ray / np.linalg.norm(ray, axis=0)
     length = np.linalg.norm(offset, axis=1)
-    reach, wanted = np.hypot(up, forward), offset[:, 2] / np.maximum(length, 1e-300)
+    reach, sine = np.hypot(up, forward), offset[:, 2] / np.maximum(length, 1e-300)
     lean = np.arctan2(up, forward)
-    rise = np.arctan2(wanted, np.sqrt(np.maximum(0.0, reach**2 - wanted**2)))
+    rise = np.arctan2(sine, np.sqrt(np.maximum(0.0, reach**2 - sine**2)))
     both = np.stack([rise - lean, np.pi - rise - lean])
     both = np.arctan2(np.sin(both), np.cos(both))
     pitch = np.where(np.abs(both[0]) <= np.abs(both[1]), both[0], both[1])
     along = forward * np.cos(pitch) - up * np.sin(pitch)
     yaw = np.arctan2(offset[:, 1], offset[:, 0]) + np.arctan2(right, along)
-    found = np.column_stack([np.arctan2(np.sin(yaw), np.cos(yaw)), pitch])
-    none = (length == 0.0) | (np.abs(wanted) > reach)
+    angles = np.column_stack([np.arctan2(np.sin(yaw), np.cos(yaw)), pitch])
+    none = (length == 0.0) | (np.abs(sine) > reach)
     upright = ~none & (np.hypot(offset[:, 0], offset[:, 1]) < VERTICAL_SHARE * length)
-    return _carried(found, none, upright)
+    return _carried(angles, none, upright)
 
 
-def _carried(found: Array, none: Mask, upright: Mask) -> Array:
+def _carried(angles: Array, none: Mask, upright: Mask) -> Array:
     """Return the angles with missing values filled from the sample before.
 
     Both angles are missing where ``none`` holds, and the yaw where the ray is vertical (``upright``).
     """
     for missing, columns in ((none, [0, 1]), (upright, [0])):
-        before = np.maximum.accumulate(np.where(missing, -1, np.arange(len(found))))
+        before = np.maximum.accumulate(np.where(missing, -1, np.arange(len(angles))))
         rows = np.flatnonzero(missing)
-        last = np.where(before[rows, None] < 0, 0.0, found[np.maximum(before[rows], 0)])
-        found[rows[:, None], columns] = last[:, columns]
-    return found
+        last = np.where(before[rows, None] < 0, 0.0, angles[np.maximum(before[rows], 0)])
+        angles[rows[:, None], columns] = last[:, columns]
+    return angles
 
 
 def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
@@ -158,16 +158,16 @@ def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
     return np.asarray(track_places(target.track, times))
 
 
-def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
+def _errors(drone: Drone, offsets: Array, references: Array, aim: Array) -> Array:
     """Return the distances of subjects from their places on screen, shape (M, 2 K); wanted : (K, M, 2)."""
     half = np.tan(drone.hfov / 2)
     yaw, pitch = aim.T
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
-    found = []
-    for offset, uv in zip(offsets, wanted, strict=True):
+    errors = []
+    for offset, uv in zip(offsets, references, strict=True):
         x, y, z = offset.T
         right, down, forward = camera.to_camera((x, y, z))
         forward = np.maximum(forward, 0.1 * np.linalg.norm(offset, axis=1))
         u, v = uv.T
-        found += [right / (forward * half) - u, -down / (forward * camera.half_height) - v]
-    return np.stack(found, axis=1)
+        errors += [right / (forward * half) - u, -down / (forward * camera.half_height) - v]
+    return np.stack(errors, axis=1)

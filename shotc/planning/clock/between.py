@@ -70,10 +70,13 @@ def _lack(
 
 def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> HalfSpaces:
     """Return half-spaces for the unfilmed pieces, with the clearances of transfers."""
-    found = sides(widened(motions, course, span), course.ctrl[:, :, :3])
-    unfilmed = ~_filmed(course, span)[found.piece]
+    half_spaces = sides(widened(motions, course, span), course.ctrl[:, :, :3])
+    unfilmed = ~_filmed(course, span)[half_spaces.piece]
     return HalfSpaces(
-        found.piece[unfilmed], found.normal[unfilmed], found.offset[unfilmed], found.owner[unfilmed]
+        half_spaces.piece[unfilmed],
+        half_spaces.normal[unfilmed],
+        half_spaces.offset[unfilmed],
+        half_spaces.owner[unfilmed],
     )
 
 

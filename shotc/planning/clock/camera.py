@@ -73,9 +73,9 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> CameraAngl
     step = np.diff(breaks)[rows.piece] / SAMPLES_PER_PIECE
     filmed = np.where(clock.filmed[rows.piece], 1.0, FAINT_WEIGHT) * step
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
-    wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
+    reference = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW_WEIGHT * step])
-    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock, angle_task.camera_task.smoother)
+    goals = _goals(rows, np.sqrt(weight), reference) + _smooth(clock, angle_task.camera_task.smoother)
     problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT_RAD2_S)
     if solved.coef is None:
@@ -109,9 +109,9 @@ def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
     if not angle_task.camera_task.watches:
         yaw = _motion(position.derivative()(times)[:, :2])
         return np.column_stack([_wound(angle_task, yaw), np.zeros(len(times))])
-    found = aims_at(angle_task.camera_task, times, position(times)[:, :3])
+    angles = aims_at(angle_task.camera_task, times, position(times)[:, :3])
     low, high = angle_task.camera_task.drone.gimbal.pitch
-    return np.column_stack([_wound(angle_task, np.unwrap(found[:, 0])), np.clip(found[:, 1], low, high)])
+    return np.column_stack([_wound(angle_task, np.unwrap(angles[:, 0])), np.clip(angles[:, 1], low, high)])
 
 
 def _wound(angle_task: AngleTask, yaw: Array) -> Array:
@@ -144,12 +144,12 @@ def _motion(velocity: Array) -> Array:
     return np.asarray(np.interp(np.arange(len(velocity)), moves, course))
 
 
-def _goals(rows: SplineFunctionals, root: Array, wanted: Array) -> tuple[Goal, ...]:
+def _goals(rows: SplineFunctionals, root: Array, reference: Array) -> tuple[Goal, ...]:
     """Return one least-squares term a channel, weighted by the squares of ``root``, shape (M, 3)."""
     goals = []
     for channel in range(3):
-        value = np.zeros_like(wanted)
-        value[:, channel] = root[:, channel] * wanted[:, channel]
+        value = np.zeros_like(reference)
+        value[:, channel] = root[:, channel] * reference[:, channel]
         goals.append(Goal(_scaled(rows, root[:, channel]), value, (channel,)))
     return tuple(goals)
 
@@ -164,15 +164,15 @@ def _smooth(clock: Clock, smoother: float) -> tuple[Goal, ...]:
 def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
     """Return the ranges, rates and accelerations of gimbal and body as half-spaces of control points."""
     limits, gimbal = drone.limits, drone.gimbal
-    found = []
+    half_spaces = []
 
     def keep(order: int, along: tuple[float, float, float], low: float, high: float) -> None:
         rows = hull_rows(breaks, order)
         number = len(rows.piece)
         normal = np.tile(np.array(along), (number, 1))
         owner = np.zeros(number, dtype=np.intp)
-        found.append(HalfSpaceRows(rows, normal, np.full(number, low), owner))
-        found.append(HalfSpaceRows(rows, -normal, np.full(number, -high), owner))
+        half_spaces.append(HalfSpaceRows(rows, normal, np.full(number, low), owner))
+        half_spaces.append(HalfSpaceRows(rows, -normal, np.full(number, -high), owner))
 
     keep(0, (0.0, 1.0, 0.0), *gimbal.pitch)
     for order, body, axis in (
@@ -187,7 +187,7 @@ def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
         keep(order, (1.0, 0.0, -1.0), -NEARLY_SHARE * axis, NEARLY_SHARE * axis)
     if drone.body != "follow-camera":
         keep(0, (1.0, 0.0, -1.0), *gimbal.yaw)
-    return tuple(found)
+    return tuple(half_spaces)
 
 
 def _scaled(rows: SplineFunctionals, factor: Array) -> SplineFunctionals:

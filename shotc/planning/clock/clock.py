@@ -52,7 +52,7 @@ def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp], lens: LensRang
     duration = shot.timing.duration or 0.0
     end = start + duration
     pieces = int(min(MOST_PIECES, max(FEWEST_PIECES, ceil(duration / PIECE_S))))
-    before, after = (way.seconds for way in ways)
+    before, after = (run_up.seconds for run_up in ways)
     first, last = (max(LEAST_PIECES, ceil(seconds / FINE_S)) for seconds in (before, after))
     breaks = np.concatenate(
         [

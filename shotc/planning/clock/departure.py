@@ -130,41 +130,52 @@ def choose(
     """
     tried: list[Transfer] = []
 
-    def waits(way: Transfer) -> float:
+    def waits(transfer: Transfer) -> float:
         """Return the seconds that the next leg waits longer than with the first candidate."""
         ready = 0.0 if then is None else then.ready
-        return 0.0 if when.due is not None else max(way.end, ready) - max(tried[0].end, ready)
+        return 0.0 if when.due is not None else max(transfer.end, ready) - max(tried[0].end, ready)
 
     for legs in ways:
-        for way in _tries(mission, drone, others, legs, when, then):
-            in_time = when.due is None or way.end <= when.due
-            tried.append(way)
-            fine = _unseen(others, way, waits(way)) >= 0.0 and _kept(way, waits(way)) >= -PROVED_M
-            if way.clear and fine and (in_time or len(tried) == 1):
-                return way
+        for transfer in _tries(mission, drone, others, legs, when, then):
+            in_time = when.due is None or transfer.end <= when.due
+            tried.append(transfer)
+            fine = (
+                _unseen(others, transfer, waits(transfer)) >= 0.0
+                and _kept(transfer, waits(transfer)) >= -PROVED_M
+            )
+            if transfer.clear and fine and (in_time or len(tried) == 1):
+                return transfer
         if not others.moving:
             break
-    due = inf if when.due is None else when.due
+    deadline = inf if when.due is None else when.due
 
-    def worth(way: Transfer) -> tuple[bool, bool, float, float, float, float, float]:
-        late = max(0.0, way.end - due)
-        kept = min(_kept(way, waits(way)), 0.0)
-        unseen = _unseen(others, way, waits(way))
-        required = min(way.required, 0.0)
-        return way.met is None, way.slack >= 0.0, required, -late, kept, min(way.slack, COMFORT_M), unseen
+    def worth(transfer: Transfer) -> tuple[bool, bool, float, float, float, float, float]:
+        late = max(0.0, transfer.end - deadline)
+        kept = min(_kept(transfer, waits(transfer)), 0.0)
+        unseen = _unseen(others, transfer, waits(transfer))
+        required = min(transfer.required, 0.0)
+        return (
+            transfer.met is None,
+            transfer.slack >= 0.0,
+            required,
+            -late,
+            kept,
+            min(transfer.slack, COMFORT_M),
+            unseen,
+        )
 
     return max(tried, key=worth, default=None)
 
 
-def _kept(way: Transfer, waits: float) -> float:
+def _kept(transfer: Transfer, waits: float) -> float:
     """Return the slack of a transfer over the clearances of transfers, metres.
 
     A penalty is subtracted where the next leg would wait longer for it than a preference may cost.
     """
-    return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED_M
+    return transfer.kept if waits <= LONGEST_WAIT else min(transfer.kept, 0.0) - WAITED_M
 
 
-def _unseen(others: OtherVehicles, way: Transfer, waits: float) -> float:
+def _unseen(others: OtherVehicles, transfer: Transfer, waits: float) -> float:
     """Return how far a transfer is out of the pictures of others, metres, where that counts; waits : as in
     ``_kept``.
 
@@ -172,8 +183,8 @@ def _unseen(others: OtherVehicles, way: Transfer, waits: float) -> float:
     else minus infinity.
     """
     if not others.visibility.preferred:
-        return way.unseen
-    return 0.0 if way.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
+        return transfer.unseen
+    return 0.0 if transfer.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
 
 
 def _tries(
@@ -184,38 +195,36 @@ def _tries(
     when: When,
     then: NextLeg | None,
 ) -> Iterator[Transfer]:
-    begin, due = when.ready, when.due
+    begin, deadline = when.ready, when.due
     curves = [motion.curve for leg in legs if (motion := leg_motion(drone, leg)) is not None]
-    lasts = sum(float(curve.end) for curve in curves)
+    duration = sum(float(curve.end) for curve in curves)
     next_motion = None if then is None else leg_motion(drone, then.leg)
     film = None if next_motion is None else next_motion.curve.channels(0, 1, 2)
-    spare = 0.0 if due is None else max(0.0, due - EARLY_S - begin - lasts)
+    spare = 0.0 if deadline is None else max(0.0, deadline - EARLY_S - begin - duration)
     shares = (
         *(share * spare for share in WAIT_SHARES),
         *((spare + HASTE_SHARE * EARLY_S,) if spare > 0.0 else ()),
     )
-    delays = DELAYS_S if due is None else tuple(dict.fromkeys(shares))
+    delays = DELAYS_S if deadline is None else tuple(dict.fromkeys(shares))
     for delay in delays:
         leaves = begin + delay
         started = [replace(leg, start=leaves) if i == 0 else leg for i, leg in enumerate(legs)]
         if not others.moving:
-            yield Transfer(tuple(started), leaves + lasts)
+            yield Transfer(tuple(started), leaves + duration)
             return
-        until = max(leaves + lasts, when.stays, due or 0.0, 0.0 if then is None else then.ready)
-        course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, until)
-        times = np.arange(
-            begin, until + (0.0 if film is None else float(film.end) + LEAVES_S) + STEP_S, STEP_S
-        )
+        end = max(leaves + duration, when.stays, deadline or 0.0, 0.0 if then is None else then.ready)
+        course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, end)
+        times = np.arange(begin, end + (0.0 if film is None else float(film.end) + LEAVES_S) + STEP_S, STEP_S)
         places, upright = course.at(times), course.upright(times)
         slack = min(_slack(what, drone.radius, times, places, upright) for what in others.moving)
         unseen = seen_on(drone, others.visibility, times, places)
-        until_then = times <= until
+        until_then = times <= end
         met = _met(others.moving, drone.radius, course, times[until_then])
         between = until_then & ~upright
         apart = [(what, _apart(what, times[between], places[between])) for what in others.moving]
         kept = min((lack for _, lack in apart), default=inf)
         required = min((lack for what, lack in apart if what.required), default=inf)
-        yield Transfer(tuple(started), leaves + lasts, slack, unseen, met, kept, required)
+        yield Transfer(tuple(started), leaves + duration, slack, unseen, met, kept, required)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

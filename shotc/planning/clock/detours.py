@@ -58,14 +58,14 @@ def ways_home(
 
 
 def ways_to(
-    wanted: Transit, start: tuple[list[MovingLeg], Pose], direct: list[MovingLeg], meanwhile: Meanwhile
+    transit: Transit, start: tuple[list[MovingLeg], Pose], direct: list[MovingLeg], meanwhile: Meanwhile
 ) -> Iterator[list[MovingLeg]]:
     """Yield the direct transfer, the one around everything that moves, and those above it.
 
     start : the take-off legs where the drone is on its pad, and the shot's first pose, to which they turn
     """
-    (lift, first), flight = start, wanted.flight
-    pose, goal, path = wanted.pose, wanted.goal, wanted.path
+    (lift, first), flight = start, transit.flight
+    pose, goal, path = transit.pose, transit.goal, transit.path
     yield [*lift, *direct]
     around = way_to(meanwhile.beside(flight), pose, goal, path)
     if isinstance(around, list):
@@ -74,21 +74,21 @@ def ways_to(
         high = max(pose[2], goal[2]) + metres
         # From a pad, the take-off goes straight up already.
         stops = [pose, *([] if lift else [_at(pose, high)]), _at(goal, high), goal]
-        found = _through(flight, stops, path)
-        if found is not None:
-            yield [*lift, *found]
+        legs = _through(flight, stops, path)
+        if legs is not None:
+            yield [*lift, *legs]
     if lift:
-        yield from _lifted(wanted, first)
+        yield from _lifted(transit, first)
 
 
-def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
+def _lifted(transit: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
     """Yield transfers with a higher take-off, where there is free space for it."""
     for metres in LIFTS_M:
-        higher = raised(wanted.mission, wanted.flight, metres)
+        higher = raised(transit.mission, transit.flight, metres)
         if higher is None:
             return
         lift = take_off(higher, first)
-        rest = way_to(higher, end_of([lift]), wanted.goal, wanted.path)
+        rest = way_to(higher, end_of([lift]), transit.goal, transit.path)
         if isinstance(rest, list):
             yield [lift, *rest]
 
@@ -97,10 +97,10 @@ def _through(flight: LegContext, stops: list[Pose], path: KeyPath) -> list[Movin
     """Return legs through a sequence of poses, or None where two of them cannot be joined."""
     legs: list[MovingLeg] = []
     for a, b in pairwise(stops):
-        way = way_to(flight, a, b, path)
-        if not isinstance(way, list):
+        direct = way_to(flight, a, b, path)
+        if not isinstance(direct, list):
             return None
-        legs += way
+        legs += direct
     return legs
 
 

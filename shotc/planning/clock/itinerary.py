@@ -137,23 +137,23 @@ class Itinerary:
         """
         self.late = 0.0
         before = self._state()
-        found = add()
-        if isinstance(found, TooLate) or self.late > LATE_S:
+        outcome = add()
+        if isinstance(outcome, TooLate) or self.late > LATE_S:
             tries = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
-        elif isinstance(found, Meets) or self.slack < 0.0:
+        elif isinstance(outcome, Meets) or self.slack < 0.0:
             tries = (False, True), (True, True)
         else:
-            return found
+            return outcome
         planned = self._state()
         self._restore(before)
         if self._ended(tries):
             again = add()
             if again is None and self.slack >= 0.0 and self.late <= LATE_S:
                 return None
-            if isinstance(found, TooLate) and isinstance(again, TooLate) and again.late < found.late:
-                found = again
+            if isinstance(outcome, TooLate) and isinstance(again, TooLate) and again.late < outcome.late:
+                outcome = again
         self._restore(planned)
-        return found
+        return outcome
 
     def _ended(self, ends: tuple[tuple[bool, bool], ...]) -> bool:
         """Plan the last shot again with the first feasible pair of ends; return whether there is one.
@@ -189,40 +189,40 @@ class Itinerary:
             return back
         ways = ways_home(self.flight, pose, back, self._meanwhile(back, None))
         stays = max(self.ends.values(), default=0.0)
-        way = choose(self.mission, self.drone, self.others, ways, When(self.clock, stays=stays))
-        assert way is not None
-        if way.met is not None:
-            return Meets(way.met)
-        self._take(way)
+        transfer = choose(self.mission, self.drone, self.others, ways, When(self.clock, stays=stays))
+        assert transfer is not None
+        if transfer.met is not None:
+            return Meets(transfer.met)
+        self._take(transfer)
         return None
 
     def track(self) -> DroneTrajectory:
         """Return the drone's flight as far as it is planned, with the timing of the time pass."""
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
-    def _meanwhile(self, direct: list[MovingLeg], due: float | None) -> Meanwhile:
+    def _meanwhile(self, direct: list[MovingLeg], deadline: float | None) -> Meanwhile:
         """Return the other vehicles during a transfer.
 
         direct : legs that take about as long
-        due : deadline of the arrival, if there is one
+        deadline : deadline of the arrival, if there is one
         """
-        until = due
-        if until is None:
-            until = self.clock + AMPLE_RATIO * sum(leg_time(self.drone, leg) for leg in direct)
-        return Meanwhile(self.others, (self.clock, max(self.clock, until)))
+        end = deadline
+        if end is None:
+            end = self.clock + AMPLE_RATIO * sum(leg_time(self.drone, leg) for leg in direct)
+        return Meanwhile(self.others, (self.clock, max(self.clock, end)))
 
     def _path(self, shot: PlannedShot) -> ClockFailure | None:
         timing = shot.shot.shot.timing
         ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
-        way = self._way(shot.leg.pose, shot, timing.start, ready)
-        if not isinstance(way, Transfer):
-            return way
-        if way.met is not None:
-            return Meets(way.met)
-        self.late = 0.0 if timing.start is None else way.end - timing.start
-        pose = end_of(way.legs) if way.legs else end_of(self.legs)
+        transfer = self._way(shot.leg.pose, shot, timing.start, ready)
+        if not isinstance(transfer, Transfer):
+            return transfer
+        if transfer.met is not None:
+            return Meets(transfer.met)
+        self.late = 0.0 if timing.start is None else transfer.end - timing.start
+        pose = end_of(transfer.legs) if transfer.legs else end_of(self.legs)
         placed = turned(self.drone, shot, pose)
-        self._take(way)
+        self._take(transfer)
         leg = placed.leg
         self.clock = max(self.clock, ready)
         self.legs.append(leg)
@@ -232,11 +232,11 @@ class Itinerary:
         return None
 
     def _way(
-        self, goal: Pose, shot: PlannedShot | PlacedShot, due: float | None, ready: float = 0.0
+        self, goal: Pose, shot: PlannedShot | PlacedShot, deadline: float | None, ready: float = 0.0
     ) -> Transfer | Failure:
         """Return the unfilmed legs from the current pose, or from the pad, to a shot's first pose.
 
-        due : deadline of the arrival, if there is one
+        deadline : deadline of the arrival, if there is one
         ready : earliest start of a shot on a path
         """
         lift = [] if self.legs else [take_off(self.flight, goal)]
@@ -250,11 +250,11 @@ class Itinerary:
         if not isinstance(direct, list):
             return direct
 
-        wanted = Transit(self.mission, self.flight, pose, near, path)
-        ways = ways_to(wanted, (lift, goal), direct, self._meanwhile([*lift, *direct], due))
-        found = choose(self.mission, self.drone, self.others, ways, When(self.clock, due), then)
-        assert found is not None
-        return found
+        transit = Transit(self.mission, self.flight, pose, near, path)
+        ways = ways_to(transit, (lift, goal), direct, self._meanwhile([*lift, *direct], deadline))
+        transfer = choose(self.mission, self.drone, self.others, ways, When(self.clock, deadline), then)
+        assert transfer is not None
+        return transfer
 
     def _timed(self, placed: PlacedShot) -> ClockFailure | None:
         shot = placed.shot
@@ -267,9 +267,9 @@ class Itinerary:
             )
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
-                begins = reached.shot.leg.start
-                later = inside(self.mission, self.flight.space, placed, begins)
-                reached = self._put_off(placed, later) if later > begins else reached
+                film_start = reached.shot.leg.start
+                later = inside(self.mission, self.flight.space, placed, film_start)
+                reached = self._put_off(placed, later) if later > film_start else reached
             elif isinstance(reached, NoMotion):
                 reached = self._later(placed, start) or reached
         else:
@@ -314,7 +314,7 @@ class Itinerary:
         short = outside(self.mission, placed, first.shot.leg.start) if first.late <= LATE_S else None
         return self._too_late(reached, first, short)
 
-    def _too_late(self, asked: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
+    def _too_late(self, requested: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
         """Return the failure of a shot that the drone reaches too late.
 
         first : the same shot at its earliest feasible start, or at the last start that was tried
@@ -327,7 +327,7 @@ class Itinerary:
         if not there:
             before[-1] = replace(before[-1], end=leg.start + first.late)
         run_up = leg.start - float(leg.curve.start)
-        return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
+        return TooLate(requested.late, leg.start if there else None, short, tuple(before), run_up)
 
     def _later(self, placed: PlacedShot, start: float) -> Reached | None:
         """Return the shot at the first of some later starts to which there is a clear transfer."""
@@ -351,23 +351,25 @@ class Itinerary:
             return near
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
         tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
-        for asked in tries:
-            far = self._reached_as(placed, start, asked)
+        for requirements in tries:
+            far = self._reached_as(placed, start, requirements)
             if isinstance(far, Reached) and far.better(near):
                 return far
         return near
 
-    def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | ClockFailure:
+    def _reached_as(
+        self, placed: PlacedShot, start: float, requirements: tuple[Ask, ...]
+    ) -> Reached | ClockFailure:
         """Plan a shot and the transfer to it, with given requirements on the shot's ends."""
         camera_task = CameraTask(self.mission, self.drone, placed.subjects)
-        made = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, asked)
+        made = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, requirements)
         if isinstance(made, NoMotion):
             return made
-        begins = float(made.leg.curve.start)
-        way = self._way(made.leg.pose, placed, begins)
-        if not isinstance(way, Transfer):
-            return way
-        return Reached(made, way, way.end - begins, asked[0].aside)
+        curve_start = float(made.leg.curve.start)
+        transfer = self._way(made.leg.pose, placed, curve_start)
+        if not isinstance(transfer, Transfer):
+            return transfer
+        return Reached(made, transfer, transfer.end - curve_start, requirements[0].aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""
@@ -392,7 +394,7 @@ class Itinerary:
         tracks = (self.mission.target(name).track for name in carriers(placed.shot))
         return max((track.since for track in tracks if track is not None), default=0.0)
 
-    def _take(self, way: Transfer) -> None:
-        self.slack = way.slack
-        self.legs += way.legs
-        self.clock = way.end
+    def _take(self, transfer: Transfer) -> None:
+        self.slack = transfer.slack
+        self.legs += transfer.legs
+        self.clock = transfer.end

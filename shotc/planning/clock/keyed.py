@@ -62,7 +62,7 @@ class KeyframeSegment:
         """The field of view over mission time, rad."""
         steps = control(self.parts)
         knots = [self.start + x * (self.end - self.start) for x, _, _ in steps]
-        ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in way] for _, _, way in steps]
+        ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in shares] for _, _, shares in steps]
         return Piecewise(np.array([*knots, self.end]), np.array(ctrl)[:, :, None])
 
 
@@ -134,8 +134,8 @@ class Keyed:
         own: Array = first + share[:, None] * step
         if stretch.follows:
             ends = np.array([a.reference, b.reference])
-            wanted = ends[0] + share[:, None] * (ends[1] - ends[0])
-            return self._following(str(a.target), wanted, (times, places), own)
+            references = ends[0] + share[:, None] * (ends[1] - ends[0])
+            return self._following(str(a.target), references, (times, places), own)
         if a is b:
             return own
         here, there = (np.tile(end, (len(times), 1)) for end in (first, first + step))
@@ -148,11 +148,11 @@ class Keyed:
         """
         if keyframe.target is None or keyframe.reference is None:
             return own
-        wanted = np.tile(np.array(keyframe.reference), (len(own), 1))
-        found = self._following(keyframe.target, wanted, where, own)
-        return np.column_stack([own[:, 0] + wrapped(found[:, 0] - own[:, 0]), found[:, 1]])
+        references = np.tile(np.array(keyframe.reference), (len(own), 1))
+        angles = self._following(keyframe.target, references, where, own)
+        return np.column_stack([own[:, 0] + wrapped(angles[:, 0] - own[:, 0]), angles[:, 1]])
 
-    def _following(self, name: str, wanted: Array, where: tuple[Array, Array], own: Array) -> Array:
+    def _following(self, name: str, references: Array, where: tuple[Array, Array], own: Array) -> Array:
         """Return the angles that put a target at its places on screen, (M, 2).
 
         Straight above or below the target the yaw is undefined: there the angles stay near ``own``.
@@ -161,17 +161,17 @@ class Keyed:
         target = self.mission.target(name)
         centres = np.tile(np.array(target.centre), (len(times), 1))
         offsets = (centres if target.track is None else track_places(target.track, times)) - places
-        hfov, found = self.hfov(times), own.copy()
+        hfov, angles = self.hfov(times), own.copy()
         level = np.linalg.norm(offsets[:, :2], axis=1) >= STEEP_SHARE * np.linalg.norm(offsets, axis=1)
         for i in np.flatnonzero(level):
             x, y, z = map(float, offsets[i])
-            uv = (float(wanted[i, 0]), float(wanted[i, 1]))
-            found[i] = aim_at((x, y, z), uv, float(hfov[i]), self.drone.aspect, own[i, 0]) or own[i]
+            uv = (float(references[i, 0]), float(references[i, 1]))
+            angles[i] = aim_at((x, y, z), uv, float(hfov[i]), self.drone.aspect, own[i, 0]) or own[i]
         steep = ~level
         if steep.any():
             lens = np.tan(hfov[steep] / 2), np.tan(hfov[steep] / 2) / self.drone.aspect
-            found[steep] = _calmly(offsets[steep], wanted[steep], lens, own[steep])
-        return found
+            angles[steep] = _calmly(offsets[steep], references[steep], lens, own[steep])
+        return angles
 
 
 def keyed_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Keyed | None:
@@ -209,8 +209,8 @@ def _spans(shot: str, stretch: KeyframeSegment) -> Iterator[Reference]:
     a, b = stretch.a, stretch.b
     if stretch.follows:
         ctrl = np.array([[a.reference] * 3 + [b.reference] * 3], dtype=np.float64)
-        wanted = Piecewise(np.array([stretch.start, stretch.end]), ctrl)
-        yield Reference(shot, str(a.target), stretch.start, stretch.end, wanted)
+        reference = Piecewise(np.array([stretch.start, stretch.end]), ctrl)
+        yield Reference(shot, str(a.target), stretch.start, stretch.end, reference)
         return
     if a.target is not None and a.target == b.target:
         yield Reference(shot, a.target, stretch.start, stretch.end, None)
@@ -241,14 +241,14 @@ def _joined(spans: Sequence[Reference]) -> Iterator[Reference]:
         yield last
 
 
-def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array) -> Array:
+def _calmly(offsets: Array, references: Array, lens: tuple[Array, Array], own: Array) -> Array:
     """Return the angles near ``own`` that put points at places on screen, (M, 2), by damped least squares."""
     turned = np.zeros_like(own)
     for _ in range(MOST_ROUNDS):
-        here = _off(offsets, wanted, lens, own + turned)
+        here = _off(offsets, references, lens, own + turned)
         slopes = np.stack(
             [
-                (_off(offsets, wanted, lens, own + turned + NUDGE_RAD * step) - here) / NUDGE_RAD
+                (_off(offsets, references, lens, own + turned + NUDGE_RAD * step) - here) / NUDGE_RAD
                 for step in np.eye(2)
             ],
             axis=2,
@@ -259,7 +259,7 @@ def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array
     return own + turned
 
 
-def _off(offsets: Array, wanted: Array, lens: tuple[Array, Array], aim: Array) -> Array:
+def _off(offsets: Array, references: Array, lens: tuple[Array, Array], aim: Array) -> Array:
     """Return the distances of points from their places on screen, half frames, (M, 2)."""
     yaw, pitch = aim.T
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), *lens)
@@ -267,5 +267,5 @@ def _off(offsets: Array, wanted: Array, lens: tuple[Array, Array], aim: Array) -
     right, down, forward = camera.to_camera((x, y, z))
     forward = np.maximum(forward, 0.1 * np.linalg.norm(offsets, axis=1))
     return np.column_stack(
-        [right / (forward * lens[0]) - wanted[:, 0], -down / (forward * lens[1]) - wanted[:, 1]]
+        [right / (forward * lens[0]) - references[:, 0], -down / (forward * lens[1]) - references[:, 1]]
     )

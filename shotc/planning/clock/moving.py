@@ -224,8 +224,8 @@ def _way_round(part: Solid, relative: Array, need: Array) -> Array:
 
     The candidates are upwards and to either side of the course.
     """
-    way = relative[-1, -1] - relative[0, 0]
-    across = np.array([-way[1], way[0], 0.0])
+    course = relative[-1, -1] - relative[0, 0]
+    across = np.array([-course[1], course[0], 0.0])
     if np.linalg.norm(across) < 1e-6:
         across = np.array([1.0, 0.0, 0.0])
     across /= np.linalg.norm(across)

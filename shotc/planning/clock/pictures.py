@@ -23,16 +23,16 @@ def least_out(path: PathIR) -> float:
     The unit is metres; where the rules define a cone, radians outside the cone. Infinite if no drone films.
     """
     mission = path.keyframes.mission
-    rules, found, least = mission.rules, flights(path), inf
+    rules, trajectories, least = mission.rules, flights(path), inf
     if rules.visibility == "off":
         return inf
-    for name, flight in found.items():
+    for name, flight in trajectories.items():
         for phase in (p for p in flight.phases if p.shot is not None):
             times = np.append(np.arange(phase.start, phase.end, STEP_S), phase.end)
             pose = flight.curve(times)
             aspect = mission.drone(name).aspect
             cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], aspect)
-            for other, seen in found.items():
+            for other, seen in trajectories.items():
                 if other == name:
                     continue
                 places, radius = flying(seen.curve, times), mission.drone(other).radius

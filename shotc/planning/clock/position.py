@@ -198,12 +198,12 @@ def _relaxed(task: ClockTask, problem: SplineProblem, now: _Round, hope: float) 
 
     hope : largest ratio of the lack to the one before, for which it is worth going on
     """
-    found = relax(problem, len(task.owners)) if now.status is Status.INFEASIBLE else None
-    after = replace(now, relaxation=found)
-    if now.best is not None or found is None or found.coef is None:
+    relaxed = relax(problem, len(task.owners)) if now.status is Status.INFEASIBLE else None
+    after = replace(now, relaxation=relaxed)
+    if now.best is not None or relaxed is None or relaxed.coef is None:
         return replace(after, ended=True)
-    lacked = float(found.owner_lack.sum())
-    hulls = _points(task.clock.breaks, found.coef)
+    lacked = float(relaxed.owner_lack.sum())
+    hulls = _points(task.clock.breaks, relaxed.coef)
     return replace(after, hulls=hulls, share=SHARES[0], lacked=lacked, ended=lacked > hope * now.lacked)
 
 
@@ -260,11 +260,11 @@ def _through(task: ClockTask, rest: Equalities) -> Equalities:
     for bound in task.bound:
         if bound.still:
             first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING_S)
-            found = _coefficients(int(first), int(last) + DEGREE, len(breaks) - 1)
+            block = _coefficients(int(first), int(last) + DEGREE, len(breaks) - 1)
         else:
-            found = value_rows(breaks, np.array([bound.start]))
-        rows.append(found)
-        values.append(np.tile(np.array(bound.place), (len(found.piece), 1)))
+            block = value_rows(breaks, np.array([bound.start]))
+        rows.append(block)
+        values.append(np.tile(np.array(bound.place), (len(block.piece), 1)))
     every = SplineFunctionals(
         np.concatenate([r.piece for r in rows]), np.concatenate([r.weight for r in rows])
     )

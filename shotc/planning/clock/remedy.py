@@ -65,14 +65,14 @@ def beside_meshes(itinerary: Itinerary, placed: PlacedShot, trouble: NoMotion) -
     # The transfers to and from the shot need slightly more free space than the shot.
     drops = [share * lack + FINE_M / 2 for share in SHARES]
     drops += [] if blocked is None else [blocked.lack + FINE_M]
-    found = _closer(itinerary, placed, trouble.start, drops)
-    return BesideMeshes(blocked, found or _higher(itinerary, placed, trouble.start, places[1]))
+    closer = _closer(itinerary, placed, trouble.start, drops)
+    return BesideMeshes(blocked, closer or _higher(itinerary, placed, trouble.start, places[1]))
 
 
 def _places(mission: MissionIR, placed: PlacedShot, start: float) -> tuple[Array, Array]:
     """Return times of a shot's film, (M,), and its ideal positions at those times, (M, 3)."""
-    lasts = placed.shot.timing.duration or 0.0
-    times = start + np.linspace(0.0, lasts, max(2, int(lasts / STEP_S)))
+    duration = placed.shot.timing.duration or 0.0
+    times = start + np.linspace(0.0, duration, max(2, int(duration / STEP_S)))
     return times, ideal_places(mission, placed.shot, start, times)
 
 

@@ -58,17 +58,17 @@ class RunUp:
         """Return the run-up with its duration multiplied by ``times``."""
         return replace(self, seconds=times * self.seconds)
 
-    def led(self, aside: Array, limits: Limits) -> RunUp:
-        """Return the run-up that ends shifted by ``aside``, shape (3,), metres, with the duration that this
+    def led(self, shift: Array, limits: Limits) -> RunUp:
+        """Return the run-up that ends shifted by ``shift``, shape (3,), metres, with the duration that this
         needs.
         """
-        level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
+        level, rise = float(np.hypot(shift[0], shift[1])), abs(float(shift[2]))
         needed = max(
-            _bounds(limits, _either_way(limits, aside)).rest_to_rest(level),
+            _bounds(limits, _either_way(limits, shift)).rest_to_rest(level),
             _bounds(limits, min(limits.climb, limits.descent)).rest_to_rest(rise),
         )
         least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
-        return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
+        return replace(self, seconds=least / (1.0 - GOES_ON) if shift.any() else self.seconds, aside=shift)
 
     def at(self, away: Array) -> Array:
         """Return positions (M, 3) at times (M,) relative to the film's end, seconds; negative is before the
@@ -111,24 +111,24 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     return RunUp(max(SHORTEST_S, SPLINE_RATIO * least + SETTLE_S), here, velocity)
 
 
-def way_time(limits: Limits, way: Array) -> float:
+def way_time(limits: Limits, displacement: Array) -> float:
     """Return the least time of a straight transfer from rest to rest, seconds.
 
     Horizontal and vertical motion are at the same time; the slower one decides.
 
-    way : displacement, shape (3,), metres
+    displacement : shape (3,), metres
     """
-    fastest = limits.speed_along(float(way[0]), float(way[1]))
-    level = _bounds(limits, fastest).rest_to_rest(float(np.linalg.norm(way[:2])))
-    speed = limits.climb if way[2] > 0.0 else limits.descent
-    return max(level, _bounds(limits, speed).rest_to_rest(abs(float(way[2]))))
+    fastest = limits.speed_along(float(displacement[0]), float(displacement[1]))
+    level = _bounds(limits, fastest).rest_to_rest(float(np.linalg.norm(displacement[:2])))
+    speed = limits.climb if displacement[2] > 0.0 else limits.descent
+    return max(level, _bounds(limits, speed).rest_to_rest(abs(float(displacement[2]))))
 
 
 def _bounds(limits: Limits, speed: float = inf) -> LineLimits:
     return LineLimits(speed, limits.usable_acceleration, limits.jerk)
 
 
-def _either_way(limits: Limits, way: Array) -> float:
+def _either_way(limits: Limits, displacement: Array) -> float:
     """Return the ground speed that is feasible in both directions of a displacement, m/s."""
-    east, north = float(way[0]), float(way[1])
+    east, north = float(displacement[0]), float(displacement[1])
     return min(limits.speed_along(east, north), limits.speed_along(-east, -north))

@@ -53,11 +53,11 @@ def ways_of(task: ClockTask) -> tuple[KeyframeSpan, ...]:
     hides = mission.meshes or mission.terrain or mission.opaque_zones
     if not hides or not is_keyed(shot) or shot.ideal is None or shot.ideal.placed or hidden_on_purpose(shot):
         return ()
-    found = []
+    spans = []
     for (a, left), (b, reached) in pairwise(zip(shot.keyframes, arrivals(shot), strict=True)):
         if a.target is not None and a.target == b.target and not stays(a, b):
-            found.append(KeyframeSpan(start + left + a.hold, start + reached, mission.target(a.target)))
-    return tuple(found)
+            spans.append(KeyframeSpan(start + left + a.hold, start + reached, mission.target(a.target)))
+    return tuple(spans)
 
 
 def led_to_see(task: ClockTask, ways: tuple[KeyframeSpan, ...], motion: Piecewise) -> ClockTask | None:
@@ -67,10 +67,10 @@ def led_to_see(task: ClockTask, ways: tuple[KeyframeSpan, ...], motion: Piecewis
     """
     breaks = task.clock.breaks
     places, for_sight = motion(breaks)[:, :3], np.zeros(len(breaks))
-    for way in ways:
-        (inside,) = np.nonzero((breaks >= way.start - STEP_S / 2) & (breaks <= way.end + STEP_S / 2))
+    for span in ways:
+        (inside,) = np.nonzero((breaks >= span.start - STEP_S / 2) & (breaks <= span.end + STEP_S / 2))
         if len(inside) > 2:
-            course = _led(task, way.target, breaks[inside], places[inside])
+            course = _led(task, span.target, breaks[inside], places[inside])
             places[inside], for_sight[inside] = course.places, course.for_sight
     return replace(task, course=VisiblePath(places, for_sight)) if for_sight.any() else None
 
@@ -125,13 +125,13 @@ class VisibleShares:
 def shown(task: ClockTask, ways: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
     """Return what a camera shows on ways; curve : all channels over the task's clock."""
     mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
-    for way in ways:
-        t = np.linspace(way.start, way.end, max(2, round((way.end - way.start) / STEP_S)))
+    for span in ways:
+        t = np.linspace(span.start, span.end, max(2, round((span.end - span.start) / STEP_S)))
         pose = curve(t)
-        hidden.append(coverage(mission, (), way.target.name, pose[:, :3], t).share)
-        still = pose[:, :3] - moved(way.target, t)
+        hidden.append(coverage(mission, (), span.target.name, pose[:, :3], t).share)
+        still = pose[:, :3] - moved(span.target, t)
         cameras = Cameras(still, pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], task.drone.aspect)
-        whole.append(frames(cameras, way.target.centre, shapes(way.target, t)).in_frame)
+        whole.append(frames(cameras, span.target.centre, shapes(span.target, t)).in_frame)
     at = np.array([bound.start for bound in task.bound])
     pose = curve(at)
     off = pose[:, [CAM_YAW, CAM_PITCH]] - aims_at(task.camera_task, at, pose[:, :3])

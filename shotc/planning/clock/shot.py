@@ -152,18 +152,24 @@ class NoMotion:
 
 
 def timed_shot(
-    camera_task: CameraTask, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
+    camera_task: CameraTask,
+    around: Around,
+    placed: PlacedShot,
+    start: float,
+    requirements: tuple[Ask, ...] = ASKED,
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``, or why there is none.
 
     If feasible, nothing passes its first and last place for some seconds before and after, so that a drone
     has time to arrive and leave. The clearances of the transfers are checked separately.
 
-    asked : requirements on its ends; the first feasible ones are used
+    requirements : requirements on its ends; the first feasible ones are used
     """
     mission, drone = camera_task.mission, camera_task.drone
     placed = placed_at(mission, placed, start)
-    task, flown = _flown(camera_task_of(mission, drone, placed, start), around, placed.shot, start, asked)
+    task, flown = _flown(
+        camera_task_of(mission, drone, placed, start), around, placed.shot, start, requirements
+    )
     shot, camera_task, clock = task.shot, task.camera_task, task.clock
     if flown.curve is None:
         missed = _missed(task, around, placed, start) if task.bound else None
@@ -218,22 +224,22 @@ def _seeing(best: _Motion) -> _Motion:
         return best
     least = shown(task, ways, best.curve)
     for _ in range(SEEING_ROUNDS):
-        aside = led_to_see(task, ways, best.curve)
-        if aside is None:
+        led = led_to_see(task, ways, best.curve)
+        if led is None:
             break
-        made = fly(aside)
-        turned = made.status if made.curve is None else _with_camera(aside, made.curve)
+        made = fly(led)
+        turned = made.status if made.curve is None else _with_camera(led, made.curve)
         if isinstance(turned, Status):
             break
-        found = shown(aside, ways, turned)
-        if not found.better(least):
+        improved = shown(led, ways, turned)
+        if not improved.better(least):
             break
-        best, least = _Motion(aside, made, turned), found
+        best, least = _Motion(led, made, turned), improved
     return best
 
 
 def _flown(
-    camera_task: CameraTask, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
+    camera_task: CameraTask, around: Around, shot: Shot, start: float, requirements: tuple[Ask, ...]
 ) -> tuple[ClockTask, PositionResult]:
     """Return the motion with the strictest feasible requirements, or the last infeasible one.
 
@@ -241,7 +247,7 @@ def _flown(
     weaker requirements that deviates much less.
     """
     best, least = None, np.inf
-    for ask in asked:
+    for ask in requirements:
         task = _task(camera_task, around, shot, start, ask)
         flown = fly(task)
         if flown.curve is None:
@@ -274,7 +280,7 @@ def _ways(
     """Return the run-up and the run-out; around : obstacles and the free space."""
     end = start + (shot.timing.duration or 0.0)
     before, after = (
-        way.lasting(ask.longer) for way in run_ups(camera_task.mission, camera_task.drone, shot, start)
+        run_up.lasting(ask.longer) for run_up in run_ups(camera_task.mission, camera_task.drone, shot, start)
     )
     if ask.aside[0]:
         before = _led(before, -1.0, start, around, camera_task.drone)
@@ -284,16 +290,16 @@ def _ways(
 
 
 def _led(
-    way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], FreeSpace], drone: Drone
+    run_up: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], FreeSpace], drone: Drone
 ) -> RunUp:
     """Return a run-up (sign -1) or a run-out (sign 1) shifted to where nothing passes its place of rest."""
-    led = way
+    led = run_up
     for _ in range(MOST_ASIDES):  # a longer shift takes longer, which moves the straight end
         rest = film + sign * led.seconds
         straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
         # The span includes the run-up, because an obstacle that passes then would meet the drone.
         span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
-        led = way.led(aside_of_what_passes(*around, straight, span), drone.limits)
+        led = run_up.led(aside_of_what_passes(*around, straight, span), drone.limits)
     return led
 
 
@@ -326,17 +332,17 @@ def _lens(camera_task: CameraTask, clock: Clock) -> Array:
 def _lacks(task: ClockTask, flown: PositionResult) -> tuple[tuple[Owner, float], ...]:
     if flown.relaxation is None:
         return ()
-    found = zip(task.owners, flown.relaxation.owner_lack, strict=True)
-    return tuple((owner, float(lack)) for owner, lack in found if lack > 1e-3)
+    lacks = zip(task.owners, flown.relaxation.owner_lack, strict=True)
+    return tuple((owner, float(lack)) for owner, lack in lacks if lack > 1e-3)
 
 
 def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, ...]:
     spans = []
     for subject in placed.subjects:
-        wanted = None
+        reference = None
         if subject.reference is not None:
-            wanted = _place_curve(places_asked(subject.reference, subject.setpoints), start, end)
-        spans.append(Reference(placed.shot.id, subject.target, start, end, wanted))
+            reference = _place_curve(places_asked(subject.reference, subject.setpoints), start, end)
+        spans.append(Reference(placed.shot.id, subject.target, start, end, reference))
     return tuple(spans)
 
 
@@ -382,8 +388,8 @@ def _cause(task: ClockTask, flown: PositionResult, t: float) -> str:
     if flown.freed:
         return PICTURES
     course = task.course
-    aside = course is not None and np.interp(t, task.clock.breaks, course.for_sight) > 0.0
-    return SIGHT if aside else LIMITS
+    for_sight = course is not None and np.interp(t, task.clock.breaks, course.for_sight) > 0.0
+    return SIGHT if for_sight else LIMITS
 
 
 def _in_the_way(task: ClockTask, place: Array, t: float) -> tuple[Owner, float] | None:

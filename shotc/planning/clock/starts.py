@@ -130,13 +130,13 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
 
     Its target may be outside of them at first. If no such start comes soon, ``start`` is returned.
     """
-    lasts = placed.shot.timing.duration or 0.0
+    duration = placed.shot.timing.duration or 0.0
     for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S):
         first = start + float(more)
         if outside(mission, placed, first) is not None:
             break
         there = placed_at(mission, placed, first).shot
-        times = first + np.append(np.arange(0.0, lasts, WHOLE_S), lasts)
+        times = first + np.append(np.arange(0.0, duration, WHOLE_S), duration)
         if bounds_slack(space, ideal_places(mission, there, first, times)).min() >= 0.0:
             return first
     return start
@@ -181,8 +181,8 @@ def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, f
     """
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
-    found = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATE))
-    return _soonest(about, off, span, 0.0) if found is None and len(off) < LATE_TRIES else found
+    start = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATE))
+    return _soonest(about, off, span, 0.0) if start is None and len(off) < LATE_TRIES else start
 
 
 def _soonest(
@@ -190,9 +190,9 @@ def _soonest(
 ) -> float | None:
     """Return the same for a correction that grows at ``rate`` from the last try on."""
     (last, lack), begin = off[-1], span[0] + FINE_S
-    until = min(span[1] - CLOSE_S, off[0][0] + HORIZON_S)
+    latest = min(span[1] - CLOSE_S, off[0][0] + HORIZON_S)
     steps = 0
-    while (now := up(begin + FINE_S * steps * (1.0 + steps / TRIES_PER_SCALE))) <= until:
+    while (now := up(begin + FINE_S * steps * (1.0 + steps / TRIES_PER_SCALE))) <= latest:
         if about(now) + lack + rate * (now - last) <= -SPARE_S:
             return now
         steps += 1

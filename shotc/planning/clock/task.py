@@ -123,5 +123,5 @@ def drawn_to(task: ClockTask, times: Array) -> Array:
     ideal, course, breaks = ideal_of(task, times), task.course, task.clock.breaks
     if course is None or not course.for_sight.any():
         return ideal
-    aside = course.for_sight[:, None] * (course.places - ideal_of(task, breaks))
-    return ideal + np.column_stack([np.interp(times, breaks, aside[:, axis]) for axis in range(3)])
+    shift = course.for_sight[:, None] * (course.places - ideal_of(task, breaks))
+    return ideal + np.column_stack([np.interp(times, breaks, shift[:, axis]) for axis in range(3)])

@@ -120,7 +120,7 @@ def keep_free(
     """
     middle = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
-    asked: list[tuple[Outside, Array]] = [
+    pictures: list[tuple[Outside, Array]] = [
         (
             partial(_in_theirs, watcher, camera_task.drone.radius, visibility.half_angle),
             times[(times > watcher.start) & (times < watcher.end)],
@@ -129,12 +129,12 @@ def keep_free(
     ]
     if camera_task.watches:
         own = times[(times > span[0]) & (times < span[1])]
-        asked += [
+        pictures += [
             (partial(_in_own, camera_task, body, visibility.half_angle), own) for body in visibility.bodies
         ]
-    found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
-    half_spaces = tuple(kept for part in found for kept in part.half_spaces)
-    return PictureHalfSpaces(half_spaces, min((part.worst for part in found), default=np.inf))
+    parts = [_linear(outside_of, at, breaks, course) for outside_of, at in pictures if len(at)]
+    half_spaces = tuple(kept for part in parts for kept in part.half_spaces)
+    return PictureHalfSpaces(half_spaces, min((part.worst for part in parts), default=np.inf))
 
 
 def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
@@ -147,17 +147,19 @@ def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -
     for watcher in visibility.watchers:
         films = (times > watcher.start) & (times < watcher.end)
         if films.any():
-            found = _in_theirs(watcher, drone.radius, visibility.half_angle, times[films], places[films])
-            least = min(least, float(found.min()))
+            distances = _in_theirs(watcher, drone.radius, visibility.half_angle, times[films], places[films])
+            least = min(least, float(distances.min()))
     return float(least)
 
 
 def _linear(
-    found: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]
+    distance: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]
 ) -> PictureHalfSpaces:
     places = course(times)
-    here = found(times, places)
-    slope = np.stack([(found(times, places + NUDGE_M * step) - here) / NUDGE_M for step in np.eye(3)], axis=1)
+    here = distance(times, places)
+    slope = np.stack(
+        [(distance(times, places + NUDGE_M * step) - here) / NUDGE_M for step in np.eye(3)], axis=1
+    )
     helps = (here < NEAR_M) & (np.linalg.norm(slope, axis=1) > FLAT_SLOPE)
     worst = float(here.min())
     if not helps.any():

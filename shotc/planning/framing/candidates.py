@@ -97,8 +97,8 @@ class ScreenLine(NamedTuple):
         """Return (u, v) at ``t``."""
         return (self.c, t) if self.upright else (t, self.c)
 
-    def foot(self, setting: FixedCamera, asked: Vec2) -> float:
-        """Return the t whose view direction is nearest to that of ``asked``.
+    def foot(self, setting: FixedCamera, requested: Vec2) -> float:
+        """Return the t whose view direction is nearest to that of ``requested``.
 
         With m the asked direction, the product of the line's unit direction with m is (a + b t) / sqrt(k +
         g^2 t^2). It has one extreme, at t = b k / (a g^2), and decreases on both sides of it; so the value
@@ -106,7 +106,7 @@ class ScreenLine(NamedTuple):
         """
         half_w = tan(setting.hfov / 2)
         fixed, free = (half_w, half_w / setting.aspect)
-        m_fixed, m_free, m_forward = setting.direction(asked)
+        m_fixed, m_free, m_forward = setting.direction(requested)
         if not self.upright:
             fixed, free, m_fixed, m_free = free, fixed, m_free, m_fixed
         a, b = m_fixed * self.c * fixed + m_forward, m_free * free
@@ -115,24 +115,26 @@ class ScreenLine(NamedTuple):
         return max(-1.0, min(1.0, b * (1.0 + (self.c * fixed) ** 2) / (a * free * free)))
 
 
-def nearest_candidate(setting: FixedCamera, composition: Composition, asked: Vec2) -> Vec2 | None:
-    """Return the candidate of the composition nearest to ``asked``, or None."""
+def nearest_candidate(setting: FixedCamera, composition: Composition, requested: Vec2) -> Vec2 | None:
+    """Return the candidate of the composition nearest to ``requested``, or None."""
     points = [p for p in composition.points if setting.slack(p) >= -TOUCH_M]
     lines = (
         *(ScreenLine(c, True) for c in composition.u_lines),
         *(ScreenLine(c, False) for c in composition.v_lines),
     )
-    place = _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
-    return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH_M))
+    place = _nearest(setting, requested, (*points, *(_along(setting, line, requested) for line in lines)))
+    return place or _nearest(
+        setting, requested, (p for p in composition.last if setting.slack(p) >= -TOUCH_M)
+    )
 
 
-def nearest_on_verticals(setting: FixedCamera, composition: Composition, asked: Vec2) -> Vec2 | None:
+def nearest_on_verticals(setting: FixedCamera, composition: Composition, requested: Vec2) -> Vec2 | None:
     """Return the nearest candidate on the vertical lines through the set's points, or None.
 
     It is used where the target is cropped at every place of the set itself.
     """
     verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
-    return _nearest(setting, asked, (_along(setting, ScreenLine(u, True), asked) for u in verticals))
+    return _nearest(setting, requested, (_along(setting, ScreenLine(u, True), requested) for u in verticals))
 
 
 def roomiest(setting: FixedCamera, composition: Composition) -> float:
@@ -154,30 +156,30 @@ def has_candidate(setting: FixedCamera, composition: Composition) -> bool:
     )
 
 
-def _nearest(setting: FixedCamera, asked: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
+def _nearest(setting: FixedCamera, requested: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
     best: Vec2 | None = None
     for place in places:
         if place is None:
             continue
-        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE_M:
+        if best is None or setting.apart(requested, place) < setting.apart(requested, best) - TIE_M:
             best = place
     return best
 
 
-def _along(setting: FixedCamera, line: ScreenLine, asked: Vec2) -> Vec2 | None:
-    """Return the candidate of the line nearest to ``asked``, or None.
+def _along(setting: FixedCamera, line: ScreenLine, requested: Vec2) -> Vec2 | None:
+    """Return the candidate of the line nearest to ``requested``, or None.
 
     The distance increases away from the foot, so the first candidate on either side of it is the nearest of
     that side.
     """
-    foot = line.foot(setting, asked)
+    foot = line.foot(setting, requested)
     if setting.slack(line.point(foot)) >= -TOUCH_M:
         return line.point(foot)
     peaks = _peaks(setting, line)
     if all(setting.slack(line.point(t)) < -TOUCH_M for t in peaks):
         return None
     ends = [_first(setting, line, (foot, end), peaks) for end in (-1.0, 1.0)]
-    return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
+    return _nearest(setting, requested, (line.point(t) for t in ends if t is not None))
 
 
 def _best(setting: FixedCamera, line: ScreenLine) -> float:
@@ -222,9 +224,9 @@ def _summit(setting: FixedCamera, line: ScreenLine, middle: float) -> float:
     return max(middle, (low + high) / 2, key=slack)
 
 
-def _first(setting: FixedCamera, line: ScreenLine, way: Vec2, peaks: list[float]) -> float | None:
+def _first(setting: FixedCamera, line: ScreenLine, side: Vec2, peaks: list[float]) -> float | None:
     """Return the first candidate from the foot to an end of the line, its border bisected; None if none."""
-    foot, end = way
+    foot, end = side
     steps = [foot + (end - foot) * i / LINE_SAMPLES for i in range(1, LINE_SAMPLES + 1)]
     # An interval of candidates too short for the sample is found at its peak.
     steps += [t for t in peaks if (t - foot) * (end - foot) > 0]

@@ -63,18 +63,18 @@ def _place(
         setting = setting._replace(shape=POINT)
     aim = own_framing(setting, keyframe, course)
     # A camera that looks at its target has it exactly in the middle.
-    asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
+    requested = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     composition = keyframe.composition
-    if asked is None or composition.keep or composition.watches:
+    if requested is None or composition.keep or composition.watches:
         crops = not reaches(setting.pitch, aim[1]) or -setting.margin(aim) > TOUCH_M
         unmet = Unmet(keyframe, setting, aim, None, None) if crops else None
-        return _placed(keyframe, aim, asked, None if composition.watches else asked), unmet
-    place, missed = nearest_candidate(setting, composition, asked), None
+        return _placed(keyframe, aim, requested, None if composition.watches else requested), unmet
+    place, missed = nearest_candidate(setting, composition, requested), None
     if place is None:
-        place = nearest_on_verticals(setting, composition, asked)
-        missed = Unmet(keyframe, setting, aim, asked, place)
+        place = nearest_on_verticals(setting, composition, requested)
+        missed = Unmet(keyframe, setting, aim, requested, place)
     turned = setting.aim(place) if place is not None else None
-    return _placed(keyframe, turned or aim, asked, place), missed
+    return _placed(keyframe, turned or aim, requested, place), missed
 
 
 def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> FixedCamera:
@@ -112,7 +112,7 @@ def _own_aim(keyframe: Keyframe, drone: Drone, course: float) -> Vec2:
     return (course, 0.0) if keyframe.aim is None else explicit_aim(keyframe.at, keyframe.aim, course)
 
 
-def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
+def _placed(keyframe: Keyframe, aim: Vec2, requested: Vec2 | None, reference: Vec2 | None) -> PlacedKeyframe:
     return PlacedKeyframe(
         at=keyframe.at,
         yaw=_direction(aim[0]),
@@ -120,7 +120,7 @@ def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 |
         hfov=keyframe.hfov,
         target=keyframe.target,
         reference=reference,
-        asked=asked,
+        asked=requested,
         hold=keyframe.hold,
         time=keyframe.time,
         placed=keyframe.placed,

@@ -70,8 +70,8 @@ def course_of(drone: Drone, position: Piecewise, half_angle: float) -> CourseBou
     return None
 
 
-def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: float) -> CourseBounds | None:
-    """Return the course on pieces so short that the bounds are at least ``room`` apart, rad; None as there.
+def finer_course(drone: Drone, position: Piecewise, half_angle: float, width: float) -> CourseBounds | None:
+    """Return the course on pieces so short that the bounds are at least ``width`` apart, rad; None as there.
 
     Where the curve reverses, its course turns within a short part of its length.
     """
@@ -80,7 +80,7 @@ def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: flo
         course = _sampled(drone, position, half_angle, breaks)
         if course is None:
             return None
-        tight = course.high - course.low < room
+        tight = course.high - course.low < width
         if not tight.any():
             return course
         breaks = np.union1d(breaks, 0.5 * (breaks[:-1] + breaks[1:])[tight])
@@ -195,16 +195,21 @@ def nearest_ends(
     """
     wound = course.wound(start[BODY_YAW])
     first, last = wound.ends
-    begins = _turned(start, min(max(start[BODY_YAW], first[0]), first[1]))
+    first_pose = _turned(start, min(max(start[BODY_YAW], first[0]), first[1]))
     if goal is None:
-        return wound, begins, None, None
+        return wound, first_pose, None, None
     turns = 2 * pi * round((0.5 * (last[0] + last[1]) - goal[BODY_YAW]) / (2 * pi))
-    asked = tuple(c + turns if k in (CAM_YAW, BODY_YAW) else c for k, c in enumerate(goal))
-    return wound, begins, _turned(asked, min(max(asked[BODY_YAW], last[0]), last[1])), asked
+    wound_goal = tuple(c + turns if k in (CAM_YAW, BODY_YAW) else c for k, c in enumerate(goal))
+    return (
+        wound,
+        first_pose,
+        _turned(wound_goal, min(max(wound_goal[BODY_YAW], last[0]), last[1])),
+        wound_goal,
+    )
 
 
 def _turned(pose: Pose, body: float) -> Pose:
     """Return a pose with another body yaw, and the camera turned with it."""
-    found = list(pose)
-    found[BODY_YAW], found[CAM_YAW] = body, pose[CAM_YAW] + body - pose[BODY_YAW]
-    return tuple(found)
+    angles = list(pose)
+    angles[BODY_YAW], angles[CAM_YAW] = body, pose[CAM_YAW] + body - pose[BODY_YAW]
+    return tuple(angles)

@@ -303,8 +303,8 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
         samples, anchors = (
             [k._replace(yaw=k.yaw + turns.shifts[k.group]) for k in part] for part in (samples, anchors)
         )
-    wanted, fixed = (np.array([k[:3] for k in part]).reshape(-1, 3) for part in (samples, anchors))
-    columns = wanted[:, 0], wanted[:, 1], wanted[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2]
+    references, fixed = (np.array([k[:3] for k in part]).reshape(-1, 3) for part in (samples, anchors))
+    columns = references[:, 0], references[:, 1], references[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2]
     return _Samples(*columns, tuple(cuts), turns.planned, turns.unsolved)
 
 
@@ -329,7 +329,7 @@ def _rests(keyed: KeyedPath, i: int) -> bool:
     ways = [
         np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
     ]
-    return keyed.keyframes[i].hold > 0 or any(way < SAME_PLACE_M for way in ways)
+    return keyed.keyframes[i].hold > 0 or any(length < SAME_PLACE_M for length in ways)
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:

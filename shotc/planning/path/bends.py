@@ -54,7 +54,7 @@ def bent_starts(position: Piecewise, over: float) -> Iterator[Piecewise]:
 def bent_ends(position: Piecewise, over: float) -> Iterator[Piecewise]:
     """Yield position curves with other ends; over : as in ``bent_starts``, at the end."""
     # In reverse the course is opposite, and the angle is the same.
-    yield from (backwards(way) for way in bent_starts(backwards(position), over))
+    yield from (backwards(curve) for curve in bent_starts(backwards(position), over))
 
 
 def backwards(curve: Piecewise) -> Piecewise:
@@ -69,18 +69,18 @@ def over_cone(course: float, heading: float, half_angle: float) -> float:
     return copysign(max(0.0, abs(off) - half_angle), off)
 
 
-def as_clear(spaces: FreeSpaces, way: Piecewise, than: Piecewise) -> bool:
+def as_clear(spaces: FreeSpaces, curve: Piecewise, than: Piecewise) -> bool:
     """Return whether a curve is proved clear, and keeps the clearances of transfers as well as
     another one.
     """
     return bool(
-        shortfall(spaces.flight, way.ctrl).max() <= 0.0
-        and _lack(spaces.transit, way) <= max(0.0, _lack(spaces.transit, than)) + ROUNDING_M
+        shortfall(spaces.flight, curve.ctrl).max() <= 0.0
+        and _lack(spaces.transit, curve) <= max(0.0, _lack(spaces.transit, than)) + ROUNDING_M
     )
 
 
-def _lack(space: FreeSpace, way: Piecewise) -> float:
-    points = way(np.linspace(way.start, way.end, WAY_SAMPLES))
+def _lack(space: FreeSpace, curve: Piecewise) -> float:
+    points = curve(np.linspace(curve.start, curve.end, WAY_SAMPLES))
     (ax, ay, az), (bx, by, bz) = points[[0, -1]].tolist()
     tapered = replace(space, ends=((ax, ay, az), (bx, by, bz)))
     lacks = [

@@ -81,16 +81,16 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
     return status, Piecewise(breaks, ctrl[:, :, None])
 
 
-def allowed_body(drone: Drone, cam_yaw: float, wanted: float) -> float:
+def allowed_body(drone: Drone, cam_yaw: float, heading: float) -> float:
     """Return the body yaw nearest to the wanted heading from which the gimbal reaches ``cam_yaw``."""
-    return cam_yaw - min(_relatives(drone, cam_yaw - wanted), key=lambda c: c[1])[0]
+    return cam_yaw - min(_relatives(drone, cam_yaw - heading), key=lambda c: c[1])[0]
 
 
-def _relatives(drone: Drone, wanted: float) -> list[tuple[float, float]]:
+def _relatives(drone: Drone, yaw: float) -> list[tuple[float, float]]:
     """Return gimbal yaws near a wanted one, and their distances from it, for each winding; best first."""
     low, high = drone.gimbal.yaw
-    first, last = floor((low - wanted) / (2 * pi)), ceil((high - wanted) / (2 * pi))
-    windings = [wanted + 2 * pi * k for k in range(first, last + 1)]
+    first, last = floor((low - yaw) / (2 * pi)), ceil((high - yaw) / (2 * pi))
+    windings = [yaw + 2 * pi * k for k in range(first, last + 1)]
     # Among equals the smaller angle comes first.
     options = [(_clip(w, (low, high)), abs(w - _clip(w, (low, high)))) for w in windings]
     return sorted(options, key=lambda c: (round(c[1], 9), abs(c[0])))

@@ -97,10 +97,10 @@ def _cone(drone: Drone, course: CourseBounds, camera: Piecewise) -> tuple[Array,
         inside = (low <= course.high).all() and (high >= course.low).all()
         return (course.low, course.high) if inside else None
     least, most = drone.gimbal.yaw
-    aside = np.median(
+    offset = np.median(
         0.5 * (yaw.min(axis=1) + yaw.max(axis=1)) - course.yaw.reshape(len(yaw), -1).mean(axis=1)
     )
-    turns = 2 * pi * round((aside - 0.5 * (least + most)) / (2 * pi))
+    turns = 2 * pi * round((offset - 0.5 * (least + most)) / (2 * pi))
     low = np.maximum(course.low + turns, yaw.max(axis=1) - most)
     high = np.minimum(course.high + turns, yaw.min(axis=1) - least)
     return (course.low + turns, course.high + turns) if (low < high).all() else None

@@ -54,13 +54,13 @@ def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
 
     Raises NoTransit if the new leg takes longer at full limits.
     """
-    asked = leg_time(drone, old)
-    made = replace(new, duration=asked if old.duration is None else old.duration)
+    duration = leg_time(drone, old)
+    made = replace(new, duration=duration if old.duration is None else old.duration)
     if lateness(drone, made) > 0.0:
         whose = "the way" if old.shot is None else "its convex path"
         least = leg_time(drone, replace(new, duration=None, pace=1.0))
-        more = f", for it takes {least:.3f} s at full limits" if least > asked else ""
-        raise NoTransit(f"the {asked:.3f} s of {whose}{more}", least if old.shot is not None else None)
+        more = f", for it takes {least:.3f} s at full limits" if least > duration else ""
+        raise NoTransit(f"the {duration:.3f} s of {whose}{more}", least if old.shot is not None else None)
     return made
 
 

@@ -79,10 +79,10 @@ def drone_legs(flight: LegContext, shots: list[PlannedShot]) -> tuple[PathLeg, .
     legs: list[PathLeg] = [take_off(flight, shots[0].leg.pose)]
     for shot in shots:
         placed = turned(flight.drone, shot, end_of(legs))
-        way = way_to(flight, end_of(legs), placed.leg.pose, shot.shot.shot.path)
-        if isinstance(way, Failure):
-            return BlockedWay(way, shot)
-        legs += way
+        transfer = way_to(flight, end_of(legs), placed.leg.pose, shot.shot.shot.path)
+        if isinstance(transfer, Failure):
+            return BlockedWay(transfer, shot)
+        legs += transfer
         wound = turns_to(placed.leg.pose, end_of(legs))
         legs.append(turned(flight.drone, placed, end_of(legs)).leg if wound else placed.leg)
     back = way_home(flight, end_of(legs))
@@ -131,11 +131,11 @@ def _at_pad(flight: LegContext, first: Pose) -> Pose:
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
     yaw = first[CAM_YAW]
-    way = (first[0] - flight.top[0], first[1] - flight.top[1])
-    if flight.look_ahead is not None and hypot(*way) > 1.0:
-        yaw = atan2(way[1], way[0])
-    wanted = atan2(way[1], way[0]) if drone.body == "forward" and hypot(*way) > 1.0 else yaw
-    body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, wanted)
+    offset = (first[0] - flight.top[0], first[1] - flight.top[1])
+    if flight.look_ahead is not None and hypot(*offset) > 1.0:
+        yaw = atan2(offset[1], offset[0])
+    heading = atan2(offset[1], offset[0]) if drone.body == "forward" and hypot(*offset) > 1.0 else yaw
+    body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, heading)
     return (*map(float, drone.home), yaw, level, body, first[HFOV])
 
 
@@ -158,10 +158,10 @@ def turned(drone: Drone, shot: PlannedShot, pose: Pose) -> PlannedShot:
     if isinstance(leg, HoldLeg):
         start = list(nearest(leg.pose, pose))
         if drone.body != "follow-camera":
-            wanted = pose[BODY_YAW]
+            heading = pose[BODY_YAW]
             if drone.body == "forward" and hypot(start[0] - pose[0], start[1] - pose[1]) > 1.0:
-                wanted = atan2(start[1] - pose[1], start[0] - pose[0])
-            start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], wanted)
+                heading = atan2(start[1] - pose[1], start[0] - pose[0])
+            start[BODY_YAW] = allowed_body(drone, start[CAM_YAW], heading)
         return replace(shot, leg=replace(leg, pose=tuple(start)))
     return replace(shot, leg=turned_leg(leg, pose)) if turns_to(leg.pose, pose) else shot
 
@@ -195,11 +195,11 @@ def _transit(
         position = transit_curve(flight.spaces, flight.drone, a, b)
         if not isinstance(position, Piecewise):
             return position
-        found = _soonest(flight, position, start, None if free_end else goal)
-        if found is None:
+        flown = _soonest(flight, position, start, None if free_end else goal)
+        if flown is None:
             curve = _with_angles(flight.drone, position, start, goal, free_end=free_end)
-            found = curve if isinstance(curve, AngleFailure) else [curve]
-        curves = found
+            flown = curve if isinstance(curve, AngleFailure) else [curve]
+        curves = flown
     if isinstance(curves, AngleFailure):
         return curves
     return [_plain(phase, curves, path)] if curves else []
@@ -237,11 +237,11 @@ def _soonest(
         if pose is None:
             continue
         over = over_cone(float(course.yaw[end]), pose[BODY_YAW], KEPT_SHARE * half_angle)
-        for way in bends(flown, over):
-            bent = course_of(drone, way, half_angle) if as_clear(flight.spaces, way, position) else None
-            tried = None if bent is None else _looking_ahead(drone, (way, bent), start, goal)
+        for bend in bends(flown, over):
+            bent = course_of(drone, bend, half_angle) if as_clear(flight.spaces, bend, position) else None
+            tried = None if bent is None else _looking_ahead(drone, (bend, bent), start, goal)
             if isinstance(tried, list) and (takes := _seconds(drone, tried)) < least:
-                best, least, position = tried, takes, way
+                best, least, position = tried, takes, bend
         flown = position
     return best
 
@@ -251,18 +251,18 @@ def _seconds(drone: Drone, curves: list[Piecewise]) -> float:
 
 
 def _looking_ahead(
-    drone: Drone, way: tuple[Piecewise, CourseBounds], start: Pose, goal: Pose | None
+    drone: Drone, path: tuple[Piecewise, CourseBounds], start: Pose, goal: Pose | None
 ) -> list[Piecewise] | AngleFailure:
     """Return a transfer with the body along its course, and the turns on the spot before and after it.
 
-    way : x, y, z over s, and its course
+    path : x, y, z over s, and its course
     """
-    course, begins, ends, asked = nearest_ends(way[1], start, goal)
-    flown = headed(drone, way[0], course, (begins, ends))
+    course, first_pose, ends, wound_goal = nearest_ends(path[1], start, goal)
+    flown = headed(drone, path[0], course, (first_pose, ends))
     if isinstance(flown, Status):
         return AngleFailure("body", flown)
-    before = _turn(drone, start, begins)
-    after = [] if ends is None or asked is None else _turn(drone, ends, asked)
+    before = _turn(drone, start, first_pose)
+    after = [] if ends is None or wound_goal is None else _turn(drone, ends, wound_goal)
     if isinstance(before, AngleFailure):
         return before
     return after if isinstance(after, AngleFailure) else [*before, flown, *after]
@@ -288,8 +288,12 @@ def turned_way(
     position, (start, goal) = leg.curve.channels(0, 1, 2), ends
     course = None if look_ahead is None else course_of(drone, position, look_ahead)
     if course is not None:
-        found = headed(drone, position, course.wound(start[BODY_YAW]), ends)
-        return AngleFailure("body", found) if isinstance(found, Status) else replace(leg, curve=found)
+        headed_curve = headed(drone, position, course.wound(start[BODY_YAW]), ends)
+        return (
+            AngleFailure("body", headed_curve)
+            if isinstance(headed_curve, Status)
+            else replace(leg, curve=headed_curve)
+        )
     if len(position.breaks) == 2:
         position = restrict(position, subdivide(position.breaks, LEG_PIECES))
     curve = _stacked(drone, position, start, goal, free_end=False)

@@ -126,21 +126,21 @@ def shot_line(
 
 
 def line_beside(
-    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], aside: Sequence[Array]
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], attractors: Sequence[Array]
 ) -> Polyline | NoWay:
     """Return the polyline through placed keyframes and places between them.
 
-    aside : for each keyframe but the last, places on the way to the next one, (N, 3)
+    attractors : for each keyframe but the last, places on the way to the next one, (N, 3)
     """
     points = np.array([k.at for k in keyframes], dtype=np.float64)
     places, of = [points[:1]], [0]
-    for k, between in enumerate(aside):
+    for k, between in enumerate(attractors):
         places += [between, points[k + 1 : k + 2]]
         of += [-1] * len(between) + [k + 1]
     ways = _ways(space, np.concatenate(places), list(range(len(of))))
     if isinstance(ways, NoWay):
         return ways
-    ends = np.cumsum([len(way) - 1 for way in ways])
+    ends = np.cumsum([len(leg) - 1 for leg in ways])
     drawing = tuple(int(end) for end, k in zip(ends, of[1:], strict=True) if k < 0)
     return replace(_joined(keyframes, points[0], of, ways), aside=drawing)
 
@@ -180,15 +180,15 @@ def _joined(
 ) -> Polyline:
     """Return the polyline of the ways from node to node; nodes : keyframe of each node, or -1."""
     corners, s, of = [start], [0.0], [nodes[0]]
-    for (i, j), way in zip(pairwise(nodes), ways, strict=True):
-        if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE_M:
+    for (i, j), leg in zip(pairwise(nodes), ways, strict=True):
+        if len(leg) == 2 and np.linalg.norm(leg[1] - leg[0]) < SAME_PLACE_M:
             steps = np.array([_turn_length(keyframes[i], keyframes[j])])
             corners.append(corners[-1])
         else:
-            steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
-            corners += list(way[1:])
+            steps = np.linalg.norm(np.diff(leg, axis=0), axis=1)
+            corners += list(leg[1:])
         s += list(s[-1] + np.cumsum(steps))
-        of += [-1] * (len(way) - 2) + [j]
+        of += [-1] * (len(leg) - 2) + [j]
     return Polyline(np.array(corners), np.array(s), tuple(of))
 
 

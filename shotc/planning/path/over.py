@@ -26,9 +26,9 @@ def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
     legs = [_leg(space, a, b) for a, b in pairwise(route)]
     if all(len(leg) == 2 for leg in legs):
         return route
-    way = np.concatenate([route[:1], *(leg[1:] for leg in legs)])
-    inside = bounds_slack(space, way[1:-1]).min(initial=0.0) >= 0.0
-    return way if inside and not blocked(space, way[:-1], way[1:]).any() else None
+    line = np.concatenate([route[:1], *(leg[1:] for leg in legs)])
+    inside = bounds_slack(space, line[1:-1]).min(initial=0.0) >= 0.0
+    return line if inside and not blocked(space, line[:-1], line[1:]).any() else None
 
 
 def _leg(space: FreeSpace, a: Array, b: Array) -> Array:
@@ -39,10 +39,10 @@ def _leg(space: FreeSpace, a: Array, b: Array) -> Array:
         return straight
     section = _section(space, a, b)
     corners = cut(fewer(section, taut(section), APART_M), LONGEST_M)
-    way = a + corners[:, :1] / flat * (b - a)
-    way[:, 2] = corners[:, 1]
-    way[0], way[-1] = a, b
-    return np.asarray(way)
+    line = a + corners[:, :1] / flat * (b - a)
+    line[:, 2] = corners[:, 1]
+    line[0], line[-1] = a, b
+    return np.asarray(line)
 
 
 def _section(space: FreeSpace, a: Array, b: Array) -> Section:
@@ -51,9 +51,9 @@ def _section(space: FreeSpace, a: Array, b: Array) -> Section:
     along = np.linspace(0.0, flat, int(np.ceil(flat / STEP_M)) + 1)
     place = a[:2] + (along / flat)[:, None] * (b[:2] - a[:2])
     left = np.array([a[1] - b[1], b[0] - a[0]]) / flat
-    room = np.minimum(ROOM_M, GROWTH_PER_M * np.minimum(along, flat - along))
-    wide = np.minimum(STRIP_M, 5.0 * room)[:, None] * left
-    strip, margin = [place - wide, place, place + wide], MARGIN_M + room
+    allowance = np.minimum(ROOM_M, GROWTH_PER_M * np.minimum(along, flat - along))
+    wide = np.minimum(STRIP_M, 5.0 * allowance)[:, None] * left
+    strip, margin = [place - wide, place, place + wide], MARGIN_M + allowance
     low = np.max([space.terrain[0].lowest(p) for p in strip], axis=0) + margin
     high = np.full(len(along), np.inf)
     for ground in space.terrain[1:]:

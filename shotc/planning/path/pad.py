@@ -75,8 +75,8 @@ def _beside_meshes(flight: FreeSpace, home: Array, above: float) -> list[float]:
     free = np.ones(len(column), dtype=bool)
     for mesh in flight.meshes:
         free &= mesh.slack(points) >= PAD_MARGIN_M
-    begins = free & ~np.concatenate([[True], free[:-1]])
-    return [float(z) for z in column[begins]]
+    starts = free & ~np.concatenate([[True], free[:-1]])
+    return [float(z) for z in column[starts]]
 
 
 def _in_column(pad: FreeSpace, home: Array, top: Array) -> PadBlocked | None:

@@ -70,9 +70,9 @@ class PolylineTask:
         """Whether the corners lie on one line in order, so that the line itself costs nothing."""
         if len(self.pulled_at):
             return False
-        way = self.corners[-1] - self.corners[0]
+        chord = self.corners[-1] - self.corners[0]
         share = (self.s - self.s[0]) / (self.s[-1] - self.s[0])
-        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * way).max() < STRAIGHT_M)
+        return bool(np.abs(self.corners - self.corners[0] - share[:, None] * chord).max() < STRAIGHT_M)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -57,9 +57,9 @@ def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
     if not first.any():
         return np.stack([start, end])
     solids = len(space.obstacles)
-    way = None if first[solids:].any() else _round_solids(space, first[:solids], start, end)
-    if not space.meshes or (way is not None and not blocked(space, way[:-1], way[1:])[:, solids:].any()):
-        return way
+    line = None if first[solids:].any() else _round_solids(space, first[:solids], start, end)
+    if not space.meshes or (line is not None and not blocked(space, line[:-1], line[1:])[:, solids:].any()):
+        return line
     return route_through(space, start, end)
 
 
@@ -235,8 +235,8 @@ def _corners(g: _Grown, growth: float) -> Array:
 def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) -> Array:
     """Return the corners of one grown obstacle at the candidate heights, shape (N, 3)."""
     xy = _corners(scene.grown[j], scene.node_reach(j))
-    way = end[:2] - start[:2]
-    progress = np.clip((xy - start[:2]) @ way / max(float(way @ way), 1e-9), 0.0, 1.0)
+    chord = end[:2] - start[:2]
+    progress = np.clip((xy - start[:2]) @ chord / max(float(chord @ chord), 1e-9), 0.0, 1.0)
     levels = [start[2] + progress * (end[2] - start[2])]
     heights = [float(start[2]), float(end[2])]
     for k in active:

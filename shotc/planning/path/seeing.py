@@ -86,11 +86,11 @@ class FilmedCurve:
     @cached_property
     def _hidden(self) -> dict[int, Array]:
         """The hidden shares of its target on each way that films one, at samples."""
-        found = {}
+        hidden = {}
         for k, who in self._ways():
             s = self._samples(k, FINER_RATIO)
-            found[k] = _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
-        return found
+            hidden[k] = _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
+        return hidden
 
     def _ways(self) -> Iterator[tuple[int, VisibleSubject]]:
         """Yield the ways from one keyframe to the next that film one target, and that target."""

@@ -48,8 +48,8 @@ class PlannedShot:
 
     def lasting(self, seconds: float | None) -> PlannedShot:
         """Return the shot with a duration, seconds, where the mission leaves its duration free."""
-        asked = self.shot.shot.timing.duration
-        return replace(self, leg=replace(self.leg, duration=seconds if asked is None else asked))
+        duration = self.shot.shot.timing.duration
+        return replace(self, leg=replace(self.leg, duration=seconds if duration is None else duration))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,9 +160,9 @@ def stack(*curves: Piecewise) -> Piecewise:
 
 def _still(placed: PlacedShot, line: Polyline) -> PlannedShot:
     first = placed.keyframes[0]
-    asked = placed.shot.timing.duration
-    times = _standing(placed.keyframes, asked)
-    hold = asked if asked is not None else times[-1] + placed.keyframes[-1].hold
+    duration = placed.shot.timing.duration
+    times = _standing(placed.keyframes, duration)
+    hold = duration if duration is not None else times[-1] + placed.keyframes[-1].hold
     pose = (*map(float, line.corners[0]), first.yaw, first.pitch, first.yaw, first.hfov)
     spans: tuple[FramingSpan, ...] = ()
     if first.target is not None:
@@ -174,7 +174,7 @@ def _still(placed: PlacedShot, line: Polyline) -> PlannedShot:
         Mark(0.0, t, i, k.path) for i, (t, k) in enumerate(zip(times, placed.keyframes, strict=True))
     )
     shot = placed.shot
-    leg = HoldLeg(shot.id, pose, hold, marks, spans, asked, shot.timing.start, shot.path)
+    leg = HoldLeg(shot.id, pose, hold, marks, spans, duration, shot.timing.start, shot.path)
     return PlannedShot(placed, leg, (), (), None, ())
 
 
@@ -236,14 +236,14 @@ def _led_to_see(
     plain = now = best = filmed(line, position[0])
     led: tuple[Polyline, tuple[Piecewise, list[Solved]]] | None = None
     for _ in range(CURVE_ROUNDS):
-        aside = now.beside(space)
-        beside = line_beside(space, placed.keyframes, aside) if any(map(len, aside)) else None
-        found = _position(space, drone, placed, beside) if isinstance(beside, Polyline) else None
-        if not isinstance(beside, Polyline) or found is None or isinstance(found, Stuck):
+        attractors = now.beside(space)
+        beside = line_beside(space, placed.keyframes, attractors) if any(map(len, attractors)) else None
+        led_position = _position(space, drone, placed, beside) if isinstance(beside, Polyline) else None
+        if not isinstance(beside, Polyline) or led_position is None or isinstance(led_position, Stuck):
             break
-        now = filmed(beside, found[0])
+        now = filmed(beside, led_position[0])
         if now.serves(plain) and now.seconds[1] < best.seconds[1]:
-            best, led = now, (beside, found)
+            best, led = now, (beside, led_position)
     return led
 
 
@@ -353,17 +353,17 @@ def _deviations(
     """
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
-    found = [
+    deviations = [
         _Away(float(away[i]), float(keyed.s[i]), points[i]) for i in worst_of_runs(away, LEFT_M, NOTICE_M)
     ]
     if not any(k.placed for k in placed.keyframes):
         between = [_bowed(keyed, points, k) for k in range(len(points) - 1)]
         worst = max(between, key=lambda one: one.distance)
-        if worst.distance > max([NOTICE_M, *(one.distance for one in found)]):
-            found = sorted([*found, worst], key=lambda one: one.s)
+        if worst.distance > max([NOTICE_M, *(one.distance for one in deviations)]):
+            deviations = sorted([*deviations, worst], key=lambda one: one.s)
     shot = placed.shot.id
     return tuple(
-        PathDeviation(shot, one.distance, one.s, _cause(space, one.place, otherwise)) for one in found
+        PathDeviation(shot, one.distance, one.s, _cause(space, one.place, otherwise)) for one in deviations
     )
 
 

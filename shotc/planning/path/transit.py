@@ -95,16 +95,16 @@ def _greatest(spaces: FreeSpaces, owners: frozenset[Owner], near: Array) -> floa
         return None
     for _ in range(SHARE_HALVINGS):
         middle = 0.5 * (low + high)
-        found = _line(spaces, _lessened(spaces, owners, middle), near) is not None
-        low, high = (middle, high) if found else (low, middle)
+        feasible = _line(spaces, _lessened(spaces, owners, middle), near) is not None
+        low, high = (middle, high) if feasible else (low, middle)
     return low
 
 
 def _needed(spaces: FreeSpaces, owners: frozenset[Owner], share: float, near: Array) -> frozenset[Owner]:
     """Return those of some owners whose clearances have to be reduced for a path."""
-    found = _line(spaces, _lessened(spaces, owners, share), near)
-    assert found is not None
-    less = owners & _passed_nearer(replace(spaces.transit, ends=_ends(near)), found.corners)
+    line = _line(spaces, _lessened(spaces, owners, share), near)
+    assert line is not None
+    less = owners & _passed_nearer(replace(spaces.transit, ends=_ends(near)), line.corners)
     for owner in sorted(less):
         if len(less) > 1 and _line(spaces, _lessened(spaces, less - {owner}, share), near) is not None:
             less = less - {owner}
@@ -141,14 +141,14 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Polyline | None:
         return _of(near)
     short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / TAPER_SLOPE
     bent = _bent(flight, wide, a, b) if short else None
-    found = [bent] if bent is not None else []
+    lines = [bent] if bent is not None else []
     away, back = (_outside(flight, replace(full, ends=wide.ends), *pair) for pair in ((a, b), (b, a)))
     route = None if away is None or back is None else find_route(full, away, back)
     if route is not None:
-        found.append(_joined(a, route, b))
-    found = [way for way in (over_ground(flight, way) for way in found) if way is not None]
-    found = [way for way in found if not blocked(flight.bounds, way[:-1], way[1:]).any()]
-    best = min(found, key=length, default=None)
+        lines.append(_joined(a, route, b))
+    lines = [line for line in (over_ground(flight, line) for line in lines) if line is not None]
+    lines = [line for line in lines if not blocked(flight.bounds, line[:-1], line[1:]).any()]
+    best = min(lines, key=length, default=None)
     most = inf if spaces.required else LONGER_RATIO * length(near) + LONGER_M
     return None if best is None or length(best) > most else _of(best)
 
@@ -236,6 +236,6 @@ def _shortest(a: Array, places: Array, b: Array) -> Array | None:
     return None if not len(places) else np.asarray(places[int(ways.argmin())])
 
 
-def _ends(way: Array) -> tuple[Vec3, Vec3]:
-    (ax, ay, az), (bx, by, bz) = way[[0, -1]].tolist()
+def _ends(line: Array) -> tuple[Vec3, Vec3]:
+    (ax, ay, az), (bx, by, bz) = line[[0, -1]].tolist()
     return (ax, ay, az), (bx, by, bz)

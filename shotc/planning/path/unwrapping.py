@@ -110,7 +110,7 @@ def turning(drone: Drone, pace: float, method: str = DEFAULT) -> TurnRules:
 
 def turned(known: list[Known], how: TurnRules) -> UnwrappedTurn:
     """Return the turns of the camera through known yaws; groups count from 0."""
-    found = [0.0] * (known[-1].group + 1)
+    turns = [0.0] * (known[-1].group + 1)
     planned, unsolved = list[PlannedTurn](), 0
     angle, start = known[0].yaw, 0
     for i in range(1, len(known)):
@@ -126,9 +126,9 @@ def turned(known: list[Known], how: TurnRules) -> UnwrappedTurn:
             planned.append(PlannedTurn(clock, yaw))
         for one, turn in zip(stretch[1:], np.diff(chosen.angles), strict=True):
             angle += float(turn)
-            found[one.group] = 2 * pi * round((angle - one.yaw) / (2 * pi))
+            turns[one.group] = 2 * pi * round((angle - one.yaw) / (2 * pi))
         start = i
-    return UnwrappedTurn(found, tuple(planned), unsolved)
+    return UnwrappedTurn(turns, tuple(planned), unsolved)
 
 
 def _chosen(known: list[Known], how: TurnRules) -> tuple[Array, Headings]:
@@ -140,11 +140,11 @@ def _chosen(known: list[Known], how: TurnRules) -> tuple[Array, Headings]:
     at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE_RATIO * _shortest(turns, how)))])
     for longer in SLOWER if how.method in FLOWN else SLOWER[:1]:
         task = HeadingTask(longer * at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
-        found = solve_headings(task, how.method)
-        if found.curve is not None:
+        solution = solve_headings(task, how.method)
+        if solution.curve is not None:
             break
     # Without a curve the choice is still valid, because the time pass gives a turn enough time.
-    return task.at, found
+    return task.at, solution
 
 
 def _fixed(a: Known, b: Known) -> float | None:

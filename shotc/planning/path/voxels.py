@@ -74,9 +74,9 @@ def route_through(space: FreeSpace, start: Array, end: Array) -> Array | None:
             if (around, grid.side) in sides:
                 continue
             sides.add((around, grid.side))
-            way = _Search(space, grid, start, end).way()
-            if way is not None:
-                return _in_short_legs(_pulled(space, way))
+            route = _Search(space, grid, start, end).way()
+            if route is not None:
+                return _in_short_legs(_pulled(space, route))
     return None
 
 
@@ -97,11 +97,11 @@ class _Search:
 
     def __init__(self, space: FreeSpace, grid: _Grid, start: Array, end: Array) -> None:
         self.space = space
-        room, slack = _room(space, grid)
-        voxels = np.flatnonzero(room)
+        free, slack = _room(space, grid)
+        voxels = np.flatnonzero(free)
         self.nodes: Array = np.concatenate([np.stack([start, end]), grid.middles(voxels)])
         slack = np.concatenate([np.zeros(2), slack[voxels]])
-        pairs = np.concatenate([_neighbours(grid, room), _to_ends(self.nodes, grid.side)])
+        pairs = np.concatenate([_neighbours(grid, free), _to_ends(self.nodes, grid.side)])
         a, b = pairs.T
         leap = self.nodes[b] - self.nodes[a]
         length = np.linalg.norm(leap, axis=1)
@@ -137,12 +137,12 @@ class _Search:
 
 def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
     """Return which segments a-b, shapes (N, 3), between free places are too near to an obstacle, (N,)."""
-    found: Mask = np.any(blocked(space, a, b, margin), axis=1)
+    shut: Mask = np.any(blocked(space, a, b, margin), axis=1)
     for ground in space.terrain:
-        some = np.flatnonzero(~found)
+        some = np.flatnonzero(~shut)
         if len(some):
-            found[some] = ground.lack(np.stack([a[some], b[some]], axis=1)) > 0.0
-    return found
+            shut[some] = ground.lack(np.stack([a[some], b[some]], axis=1)) > 0.0
+    return shut
 
 
 def _room(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
@@ -183,8 +183,8 @@ def _beside(beside: BesideMesh, grid: _Grid) -> Array:
     rough = rough[tuple(slice(pad, pad + n) for n in shape)].ravel()
     slack = rough - (_IN_VOXEL_SIDES + _IN_TRIANGLE_EDGES) * side - beside.clearance
     doubtful = np.flatnonzero((slack < ROOM_M) & (rough + _IN_VOXEL_SIDES * side >= beside.clearance))
-    found = nearest(surface, grid.middles(doubtful), beside.clearance + ROOM_M)
-    slack[doubtful] = np.minimum(found.distance - beside.clearance, ROOM_M)
+    closest_points = nearest(surface, grid.middles(doubtful), beside.clearance + ROOM_M)
+    slack[doubtful] = np.minimum(closest_points.distance - beside.clearance, ROOM_M)
     return np.asarray(slack)
 
 
@@ -213,41 +213,41 @@ def _to_ends(nodes: Array, side: float) -> IntArray:
     return np.concatenate(pairs).astype(np.intp)
 
 
-def _pulled(space: FreeSpace, way: Array) -> Array:
+def _pulled(space: FreeSpace, route: Array) -> Array:
     """Return a route with shortcuts, with a large margin where that is hardly longer."""
-    roomy, close = (_taut(space, way, margin) for margin in (ROOMY_M, ROUTE_MARGIN_M))
+    roomy, close = (_taut(space, route, margin) for margin in (ROOMY_M, ROUTE_MARGIN_M))
     return roomy if _length(roomy) <= DETOUR_RATIO * _length(close) else close
 
 
-def _taut(space: FreeSpace, way: Array, margin: float) -> Array:
+def _taut(space: FreeSpace, route: Array, margin: float) -> Array:
     """Return the corners that remain after the longest shortcuts that keep a margin."""
-    corners, i, last = [0], 0, len(way) - 1
+    corners, i, last = [0], 0, len(route) - 1
     while i < last:
-        i = _farthest(space, way, i, margin)
+        i = _farthest(space, route, i, margin)
         corners.append(i)
-    return np.asarray(way[corners])
+    return np.asarray(route[corners])
 
 
-def _farthest(space: FreeSpace, way: Array, i: int, margin: float) -> int:
+def _farthest(space: FreeSpace, route: Array, i: int, margin: float) -> int:
     """Return the last corner with a free segment from corner i; at least the next one."""
-    for high in range(len(way), i + 1, -SHORTCUTS_AT_ONCE):
+    for high in range(len(route), i + 1, -SHORTCUTS_AT_ONCE):
         some = np.arange(high - 1, max(i + 1, high - 1 - SHORTCUTS_AT_ONCE), -1)
         if not len(some):
             break
-        shut = stopped(space, np.tile(way[i], (len(some), 1)), way[some], margin)
+        shut = stopped(space, np.tile(route[i], (len(some), 1)), route[some], margin)
         if not shut.all():
             return int(some[int(np.argmin(shut))])
     return i + 1
 
 
-def _length(way: Array) -> float:
-    return float(np.linalg.norm(np.diff(way, axis=0), axis=1).sum())
+def _length(route: Array) -> float:
+    return float(np.linalg.norm(np.diff(route, axis=0), axis=1).sum())
 
 
-def _in_short_legs(way: Array) -> Array:
+def _in_short_legs(route: Array) -> Array:
     """Return a route with more corners, so that no leg is longer than LONGEST_M."""
-    parts = [way[:1]]
-    for a, b in pairwise(way):
+    parts = [route[:1]]
+    for a, b in pairwise(route):
         count = int(np.ceil(np.linalg.norm(b - a) / LONGEST_M))
         parts.append(a + np.arange(1, count + 1)[:, None] / count * (b - a))
     return np.concatenate(parts)

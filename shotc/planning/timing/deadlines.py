@@ -111,7 +111,7 @@ class DueLeg:
         late = LITTLE
         for a, b in pairwise(_anchors(self.leg, self.plan)):
             least = sum(seconds for _, _, seconds in _parts(self.plan, self.fast, a.s, b.s))
-            late = max(late, least / max(_room(self.plan, a, b), SOON) - 1.0)
+            late = max(late, least / max(_available(self.plan, a, b), SOON) - 1.0)
         return late
 
     def meet(self) -> Timed | TooFast:
@@ -122,12 +122,12 @@ class DueLeg:
             return attempt
         late = anchors[attempt.anchor]
         at_end = late.mark is None
-        asked = late.leaves if at_end else late.arrives
+        time = late.leaves if at_end else late.arrives
         for shifts_rest in (False, True):
             delay = _least_delay(self, anchors, attempt, shifts_rest)
             if delay is not None:
-                return TooFast(late.mark, asked, asked + delay, shifts_rest)
-        return TooFast(late.mark, asked, None)
+                return TooFast(late.mark, time, time + delay, shifts_rest)
+        return TooFast(late.mark, time, None)
 
 
 def has_times(leg: PathLeg) -> bool:
@@ -139,7 +139,7 @@ def flying_times(leg: PathLeg) -> tuple[tuple[float, float], ...]:
     """Return the places of a leg with a fixed time, its start first, and the flight time to each, seconds."""
     plan = plan_of(leg)
     anchors = _anchors(leg, plan)
-    flown = accumulate((_room(plan, a, b) for a, b in pairwise(anchors)), initial=0.0)
+    flown = accumulate((_available(plan, a, b) for a, b in pairwise(anchors)), initial=0.0)
     return tuple((anchor.s, t) for anchor, t in zip(anchors, flown, strict=True))
 
 
@@ -167,7 +167,7 @@ def _anchors(leg: PathLeg, plan: StopPlan) -> list[_Anchor]:
     return anchors
 
 
-def _room(plan: StopPlan, a: _Anchor, b: _Anchor) -> float:
+def _available(plan: StopPlan, a: _Anchor, b: _Anchor) -> float:
     """Return the flight time between two anchors, without holds, seconds."""
     return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
 
@@ -178,13 +178,13 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
     for i, (a, b) in enumerate(pairwise(anchors)):
         split = _parts(plan, timed.fast, a.s, b.s)
         least = sum(seconds for _, _, seconds in split)
-        room = _room(plan, a, b)
-        lack = least - room
-        if lack > ROUNDING * (1 + room) + SOLVED_TO * least and (
-            room <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
+        available = _available(plan, a, b)
+        lack = least - available
+        if lack > ROUNDING * (1 + available) + SOLVED_TO * least and (
+            available <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
         ):
             return _Late(i + 1, lack)
-        parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in split]
+        parts += [_Part(m, end, available * seconds / least, seconds, i + 1) for m, end, seconds in split]
     rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
     parts += [_Part(m, end, seconds, seconds, len(anchors)) for m, end, seconds in rest]
     moves: list[TimedMove] = []

@@ -101,11 +101,11 @@ def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, cl
         first = span.start <= leg.curve.start
         start = motion.profile.arrival(span.start) if first else motion.profile.departure(span.start)
         end = motion.profile.departure(span.end)
-    wanted = None
+    reference = None
     if span.reference is not None and end - start >= SHORTEST_HOLD_S:
-        wanted = _over_time(span.reference, motion.profile, start, end)
-        wanted = Piecewise(clock + wanted.breaks, wanted.ctrl)
-    return Reference(shot, span.target, clock + start, clock + end, wanted)
+        reference = _over_time(span.reference, motion.profile, start, end)
+        reference = Piecewise(clock + reference.breaks, reference.ctrl)
+    return Reference(shot, span.target, clock + start, clock + end, reference)
 
 
 def _over_time(reference: Piecewise, profile: Profile, start: float, end: float) -> Piecewise:
@@ -121,10 +121,10 @@ def _over_time(reference: Piecewise, profile: Profile, start: float, end: float)
         s = place(t)
         sd, sdd = (motion.derivative(k)(t)[:, :1] for k in (1, 2))
         d1, d2 = reference.derivative(1)(s), reference.derivative(2)(s)
-        found = quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)
+        curve = quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)
         between = (t[:-1, None] + np.diff(t)[:, None] * np.array([0.25, 0.5, 0.75])).ravel()
-        off = np.abs(found(between) - reference(place(between))).max(axis=1).reshape(-1, 3).max(axis=1)
+        off = np.abs(curve(between) - reference(place(between))).max(axis=1).reshape(-1, 3).max(axis=1)
         if (off <= OFF_HALF_FRAMES).all():
             break
         t = np.sort(np.concatenate([t, 0.5 * (t[1:] + t[:-1])[off > OFF_HALF_FRAMES]]))
-    return found
+    return curve

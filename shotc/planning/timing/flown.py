@@ -45,15 +45,15 @@ class Usage:
 
 def usages(curve: Piecewise, limits: tuple[LimitedNorm, ...]) -> tuple[Usage, ...]:
     """Return the use of every limit that is verified, proved for all t of each piece."""
-    found = []
+    usages = []
     derivatives = {order: curve.derivative(order) for order in (1, 2, 3)}
     for axis in limits:
         for order, bound in ((1, axis.rate), (2, axis.acceleration), (3, None if axis.ease else axis.jerk)):
             if bound is not None:
                 along = derivatives[order].ctrl @ axis.pick.T
                 size = axis.rate_used if order == 1 else _norm
-                found.append(Usage(bound[0], order, bound[1], _peak(along, size) / bound[1]))
-    return tuple(found)
+                usages.append(Usage(bound[0], order, bound[1], _peak(along, size) / bound[1]))
+    return tuple(usages)
 
 
 def needed_scale(usage: tuple[Usage, ...]) -> Array:

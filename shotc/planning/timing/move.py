@@ -239,7 +239,7 @@ def bounded_profile(
     best: Iterate | None = None
     current, steps = start, 0
     while steps < MOST_STEPS:
-        status, found = retime(problem, current)
+        status, profile = retime(problem, current)
         steps += 1
         if status not in USABLE and best is not None:
             break
@@ -247,11 +247,11 @@ def bounded_profile(
             # A slower guess is more likely feasible.
             current = start_from(problem.widths, current.b / 4.0)
             continue
-        best = found
-        time = float(cell_times(problem.widths, found.b, found.a).sum())
+        best = profile
+        time = float(cell_times(problem.widths, profile.b, profile.a).sum())
         if abs(last - time) < CHANGE_SHARE * time:
             break
-        current = current.blend(found, KEEP_FIRST if last == np.inf else KEEP)
+        current = current.blend(profile, KEEP_FIRST if last == np.inf else KEEP)
         last = time
     return best, steps
 

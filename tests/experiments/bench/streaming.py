@@ -14,7 +14,7 @@ from multiprocessing.synchronize import Event
 
 from shotc.stream.clock import WallClock
 from shotc.stream.punctual import punctual
-from shotc.stream.report import told
+from shotc.stream.report import timing_summary
 from shotc.stream.session import Session
 from shotc.stream.sockets import DOORS
 from tests.support.stream.plans import hop_plan
@@ -51,7 +51,7 @@ def _fly(plan: object, world: World) -> None:
             flown, pilots = session.fly(aboard)
         cpu = time.process_time() - cpu
     lasted = flown.times.ticks / 50
-    print(f"{len(pilots)} drones, {lasted:.0f} s: {told(flown.times)}")
+    print(f"{len(pilots)} drones, {lasted:.0f} s: {timing_summary(flown.times)}")
     print(f"real-time priority: {'granted' if granted else 'not granted'}")
     print(f"CPU {100 * cpu / lasted:.1f} % of one core; {'landed' if flown.landed else flown.diagnostics}")
 

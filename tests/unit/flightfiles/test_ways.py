@@ -171,7 +171,11 @@ def test_our_litchi_files_are_imported_as_they_are_written() -> None:
     points[0] = replace(points[0], stops=True, actions=(PointAction("start"), PointAction("stay", 3.0)))
     points[2] = replace(points[2], stops=True, actions=(PointAction("stop"),))
     made = imported(
-        "litchi", write_table(points), "ours.csv", strict=False, asked=ImportOptions(every=True, ground=408.0)
+        "litchi",
+        write_table(points),
+        "ours.csv",
+        strict=False,
+        options=ImportOptions(every=True, ground=408.0),
     )
     assert made.text is not None
     assert (made.shots, made.keyframes) == (1, 3)

@@ -31,10 +31,10 @@ def guess_past(
     values = [curve(breaks), *(curve.derivative(order)(breaks) for order in (1, 2))]
     at = np.flatnonzero(hidden)
     for run in np.split(at, np.flatnonzero(np.diff(breaks[at]) > BRIDGED_S) + 1) if len(at) else []:
-        way = _way_out(curve(breaks), references, occluders, run)
+        detour = _way_out(curve(breaks), references, occluders, run)
         bump = _bump(breaks, (float(breaks[run[0]]), float(breaks[run[-1]])))
         for order in range(3):
-            values[order] = values[order] + bump[order][:, None] * way
+            values[order] = values[order] + bump[order][:, None] * detour
     return quintic_hermite(breaks, *values)
 
 
@@ -44,10 +44,10 @@ def _way_out(eyes: Array, references: ClockReferences, occluders: Sequence[Occlu
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
     best, least = np.zeros(3), float(occlusion_at(occluders, references, eyes)[run].max())
     for far in references.usual * np.arange(1, TRIES_PER_SIDE + 1) / TRIES_PER_SIDE:
-        for way in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
-            occlusion = float(occlusion_at(occluders, references, eyes + way)[run].max())
+        for detour in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
+            occlusion = float(occlusion_at(occluders, references, eyes + detour)[run].max())
             if occlusion < least:
-                best, least = way, occlusion
+                best, least = detour, occlusion
         if least < CLEAR_DV:
             break
     return best

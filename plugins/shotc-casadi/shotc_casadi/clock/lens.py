@@ -88,16 +88,16 @@ def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
     film = (t >= leg.start - SAME_S) & (t <= leg.end + SAME_S)
     pose = leg.curve(t)
     given = pose[:, HFOV]
-    wanted = np.where(film, _wanted(subject, leg, t, pose), given)
-    unasked = subject.drone.zooms_unasked or not (wanted == given).all()
+    reference = np.where(film, _reference(subject, leg, t, pose), given)
+    unasked = subject.drone.zooms_unasked or not (reference == given).all()
     least = np.where(film, _least(subject, t, pose), 0.0) if unasked else np.zeros(len(t))
     low, high = lens_bounds(subject.drone, given)
-    wanted, least = np.clip(wanted, low, high), np.minimum(least, high)
-    if (wanted == given).all() and (least <= given * (1.0 + NARROW_SHARE)).all():
+    reference, least = np.clip(reference, low, high), np.minimum(least, high)
+    if (reference == given).all() and (least <= given * (1.0 + NARROW_SHARE)).all():
         return None
     length = np.diff(t)
     weight = 0.5 * (np.append(length, 0.0) + np.append(0.0, length)) * np.where(film, 1.0, FAINT_SHARE)
-    return _Lens(wanted, least, weight / (leg.end - leg.start), given, _bound(subject, t))
+    return _Lens(reference, least, weight / (leg.end - leg.start), given, _bound(subject, t))
 
 
 def _bound(subject: ClockSubject, t: Array) -> Mask:
@@ -111,7 +111,7 @@ def _bound(subject: ClockSubject, t: Array) -> Mask:
     return bound
 
 
-def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Array:
+def _reference(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Array:
     """Return the reference field of view, rad, shape (N + 1,).
 
     Between two keyframes of one target with different lenses, the logarithm of the target's size moves
@@ -119,12 +119,12 @@ def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Arra
     meets them. Otherwise it is the given field of view.
     """
     keyed = subject.camera_task.keyed
-    wanted = np.array(pose[:, HFOV])
+    reference = np.array(pose[:, HFOV])
     if keyed is None and not subject.drone.zooms_unasked:
-        return wanted
+        return reference
     if keyed is None:
         factor = _factor(subject, t, pose)
-        return 2.0 * np.arctan(np.tan(wanted / 2) * factor) if (factor != 1.0).any() else wanted
+        return 2.0 * np.arctan(np.tan(reference / 2) * factor) if (factor != 1.0).any() else reference
     away = np.linalg.norm(seen_at(subject, t)[:, 0] - pose[:, :3], axis=1)
     for stretch in keyed.stretches:
         a, b = stretch.a, stretch.b
@@ -135,17 +135,17 @@ def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Arra
         there = np.linalg.norm(seen_at(subject, ends)[:, 0] - leg.curve(ends)[:, :3], axis=1)
         first, last = (log(d * np.tan(k.hfov / 2)) for d, k in zip(there, (a, b), strict=True))
         spread = first + (last - first) * stretch.share(t[inside])
-        wanted[inside] = 2.0 * np.arctan(np.exp(spread) / away[inside])
-    return wanted
+        reference[inside] = 2.0 * np.arctan(np.exp(spread) / away[inside])
+    return reference
 
 
 def _factor(subject: ClockSubject, t: Array, pose: Array) -> Array:
     """Return how much wider the picture has to be to meet the sizes asked for on average, (N + 1,)."""
     off = []
     for one in subject.framed:
-        asked = np.array([one.asked(float(u) - subject.leg.start).size or np.nan for u in t])
+        sizes = np.array([one.asked(float(u) - subject.leg.start).size or np.nan for u in t])
         _, _, low, high = _outline(subject, one, t, pose)
-        off.append(np.log(0.5 * (high - low) / asked))
+        off.append(np.log(0.5 * (high - low) / sizes))
     known = np.isfinite(off)
     mean = np.where(known, off, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
     return np.where((np.abs(mean) > SIZED_SHARE).any(), np.exp(mean), 1.0)
@@ -163,9 +163,9 @@ def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
         box = np.array(_outline(subject, one, t, pose))
         middle = np.zeros((2, len(t))) if subject.together else _places(subject, one, t)
         for axis, edge, inwards in ((0, 0, -1.0), (0, 1, 1.0), (1, 2, -1.0), (1, 3, 1.0)):
-            room = viewpoint.EDGE_SHARE - inwards * middle[axis]
+            margin = viewpoint.EDGE_SHARE - inwards * middle[axis]
             grows = inwards * (box[edge] - middle[axis])
-            need = np.where(room > 0.0, grows / np.maximum(room, 1e-9), np.inf)
+            need = np.where(margin > 0.0, grows / np.maximum(margin, 1e-9), np.inf)
             factor = np.fmax(factor, need)
     return np.asarray(2.0 * np.arctan(np.tan(pose[:, HFOV] / 2) * factor))
 
@@ -234,9 +234,9 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     solver.setup(sparse.diags(square).tocsc(), linear, equal, right, bounded, least, most)
     if solver.solve() != piqp.PIQP_SOLVED:
         return None
-    found = np.asarray(solver.result.x)[: 3 * (n + 1)].reshape(n + 1, 3).copy()
-    found[[0, -1]] = [[task.given[0], 0.0, 0.0], [task.given[-1], 0.0, 0.0]]
-    return found
+    solution = np.asarray(solver.result.x)[: 3 * (n + 1)].reshape(n + 1, 3).copy()
+    solution[[0, -1]] = [[task.given[0], 0.0, 0.0], [task.given[-1], 0.0, 0.0]]
+    return solution
 
 
 class _Rows:

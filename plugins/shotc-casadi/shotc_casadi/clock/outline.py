@@ -148,10 +148,10 @@ def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Edges:
     x, y, z = camera.to_camera((centre[0], centre[1], centre[2]))
     lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch
     square = z**2 - lean_z**2
-    aside = radius * ca.sqrt(square + (camera.cos_pitch * x) ** 2)
+    lateral = radius * ca.sqrt(square + (camera.cos_pitch * x) ** 2)
     fall = radius * length(centre[2], LEVEL_SHARE * far)
     down = y * z - lean_y * lean_z
     wide, tall = square * camera.half_width, square * camera.half_height
     return _Edges(
-        (x * z - aside) / wide, (x * z + aside) / wide, -(down + fall) / tall, -(down - fall) / tall
+        (x * z - lateral) / wide, (x * z + lateral) / wide, -(down + fall) / tall, -(down - fall) / tall
     )

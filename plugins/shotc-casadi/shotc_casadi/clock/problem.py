@@ -193,9 +193,9 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
 
 def _drawn_angles(pose: Near) -> Array:
     """Return reference yaw and pitch (0 if free), rad, and the weights of both, (4,)."""
-    asked = (pose.yaw, pose.pitch)
+    preferred = (pose.yaw, pose.pitch)
     weight = viewpoint.NEAR_WEIGHT**2
-    return np.array([*(a or 0.0 for a in asked), *(0.0 if a is None else weight for a in asked)])
+    return np.array([*(a or 0.0 for a in preferred), *(0.0 if a is None else weight for a in preferred)])
 
 
 def _parameters(subject: ClockSubject, breaks: Array, references: ClockReferences) -> Array:

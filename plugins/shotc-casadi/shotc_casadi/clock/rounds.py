@@ -192,18 +192,18 @@ def _next(shot: _Shot, now: _Round) -> _Round:
         return _tightened(after, gap)
     # The cost before does not contain new occluders.
     anew = references.screened > now.references.screened
-    found = _Best(curve, solution, task)
-    return _continued(shot, _improved(after, found, anew=anew), found)
+    best = _Best(curve, solution, task)
+    return _continued(shot, _improved(after, best, anew=anew), best)
 
 
-def _continued(shot: _Shot, after: _Round, found: _Best) -> _Round:
+def _continued(shot: _Shot, after: _Round, best: _Best) -> _Round:
     """Return the round with the surroundings of the next one; it is the last if the next can gain little."""
     if after.ended:
         return after
     setting = _surroundings_of(shot, after)
     if _counts_anew(shot, after, setting.references):
         return replace(after, setting=setting)
-    little = gain_bound(found.task, found.solution, setting.planes, after.reach) < LEAST_GAIN_SHARE
+    little = gain_bound(best.task, best.solution, setting.planes, after.reach) < LEAST_GAIN_SHARE
     return replace(after, setting=setting, ended=little)
 
 
@@ -248,13 +248,13 @@ def _tightened(after: _Round, gap: UnprovedMoment) -> _Round:
     return replace(after, use=after.use._replace(share=after.use.share * NEARLY_SHARE))
 
 
-def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
+def _improved(after: _Round, latest: _Best, *, anew: bool) -> _Round:
     """Return the state after a round that holds; anew : its cost is not comparable with earlier ones."""
-    solution, best = found.solution, after.best
+    solution, best = latest.solution, after.best
     least = inf if best is None or anew else best.solution.objective
     return replace(
         after,
-        best=found if solution.objective < least else best,
+        best=latest if solution.objective < least else best,
         start=(solution.states, solution.inputs),
         ended=not solution.objective < (1 - GAIN_SHARE) * least,
     )

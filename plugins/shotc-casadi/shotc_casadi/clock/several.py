@@ -46,14 +46,14 @@ def pictured(
     rows[:, :, :3] = centres
     for j, (subject, target) in enumerate(zip(subjects, targets, strict=True)):
         if subject.setpoints:
-            rows[:, j, 3:SUBJECT] = [_asked(target, subject.asked(float(u) - start), sized) for u in t]
+            rows[:, j, 3:SUBJECT] = [_parameters(target, subject.asked(float(u) - start), sized) for u in t]
         else:
-            rows[:, j, 3:SUBJECT] = _asked(target, subject.asked(0.0), sized)
+            rows[:, j, 3:SUBJECT] = _parameters(target, subject.asked(0.0), sized)
         rows[:, j, SUBJECT:] = extents_of(shapes(target, t), extents, len(t)).reshape(len(t), -1)
     return rows
 
 
-def _asked(target: Target, subject: Asked, sized: bool) -> list[float]:
+def _parameters(target: Target, subject: Asked, sized: bool) -> list[float]:
     """Return all parameters of a subject except its centre, in the order of picture.FIELDS."""
     azimuth, elevation = subject.view or (None, None)
     both = azimuth is not None and elevation is not None

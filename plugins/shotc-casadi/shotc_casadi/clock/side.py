@@ -77,9 +77,9 @@ def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) ->
     return tuple(over)
 
 
-def _across(way: Array, away: Array) -> Array:
+def _across(directions: Array, away: Array) -> Array:
     """Return unit vectors across ways (M, 2) on the side of ``away``; ``away`` itself if it is along."""
-    across = np.column_stack([-way[:, 1], way[:, 0]])
+    across = np.column_stack([-directions[:, 1], directions[:, 0]])
     length = np.linalg.norm(across, axis=1)[:, None]
     across = across / np.maximum(length, 1e-6)
     across *= np.sign(across @ away)[:, None]

@@ -229,8 +229,8 @@ def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[A
 
 def _off_drawn(yaw: Any, pitch: Any, drawn: Any) -> Any:
     """Return the cost of the camera angles against their reference (viewpoint Eq. 10)."""
-    aside = 2.0 * ca.sin(0.5 * (yaw - drawn[0]))
-    return drawn[2] * aside**2 + drawn[3] * (pitch - drawn[1]) ** 2
+    sine = 2.0 * ca.sin(0.5 * (yaw - drawn[0]))
+    return drawn[2] * sine**2 + drawn[3] * (pitch - drawn[1]) ** 2
 
 
 def _integrated(x: Any, jerk: Any, h: Any) -> Any:

@@ -33,9 +33,9 @@ SHARED_PARAMETERS = 12  # parameters of all stages: weights, reference state, he
 class ShotChase:
     """Plans a shot of one target (``ChasePlanner``)."""
 
-    def __init__(self, problem: ChaseProblem, until: Until = WARM) -> None:
+    def __init__(self, problem: ChaseProblem, stop_rule: Until = WARM) -> None:
         """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
-        self._weights, self._until = problem.weights, until
+        self._weights, self._until = problem.weights, stop_rule
         made = partial(_horizon, stages=problem.horizon.stages)
         self._flight = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
 
@@ -50,8 +50,8 @@ class ShotChase:
             into.common[3] = 0.0 if s.height is None else self._weights.height
             into.common[11] = 0.0 if s.height is None else s.height
             start = self._guess(s) if last is None else self._shifted(s, last)
-            since = s.time - (0.0 if last is None else last.times[0])
-            if not (into.is_finite and isfinite(since) and isfinite(start.sum())):
+            elapsed = s.time - (0.0 if last is None else last.times[0])
+            if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
             done = solver.walk(start, FIRST if last is None else self._until)
             return flight.told(solver, done, s.time, widened)
@@ -71,9 +71,9 @@ class ShotChase:
         times = self._flight.times
         whole = float(times[-1])
         share = ((times[1:] + times[:-1]) / (2.0 * whole))[:, None]
-        way, v0, v1 = s.wanted - s.place, s.velocity, s.wanted_velocity
-        bend = 6.0 * way - whole * (4.0 * v0 + 2.0 * v1)
-        return np.asarray((bend - share * (12.0 * way - 6.0 * whole * (v0 + v1))) / whole**2)
+        displacement, v0, v1 = s.wanted - s.place, s.velocity, s.wanted_velocity
+        bend = 6.0 * displacement - whole * (4.0 * v0 + 2.0 * v1)
+        return np.asarray((bend - share * (12.0 * displacement - 6.0 * whole * (v0 + v1))) / whole**2)
 
 
 @lru_cache(maxsize=32)

@@ -63,9 +63,9 @@ Cast = tuple[bool, ...]
 class Framing:
     """Plans a shot that composes subjects (``FramingPlanner``)."""
 
-    def __init__(self, problem: FramingProblem, until: Until = WARM) -> None:
+    def __init__(self, problem: FramingProblem, stop_rule: Until = WARM) -> None:
         """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
-        self._problem, self._until = problem, until
+        self._problem, self._until = problem, stop_rule
         self._flights: dict[Cast, ShotSolvers] = {}
 
     def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
@@ -79,8 +79,8 @@ class Framing:
             _fill(s, into.given, into.common)
             n = len(into.given)
             start = np.zeros((n, INPUTS)) if last is None else _shifted(flight.index(s.time, last), last)
-            since = s.time - (0.0 if last is None else last.times[0])
-            if not (into.is_finite and isfinite(since) and isfinite(start.sum())):
+            elapsed = s.time - (0.0 if last is None else last.times[0])
+            if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
             done = solver.walk(start, FIRST if last is None else self._until)
             return flight.told(solver, done, s.time, widened)
@@ -106,17 +106,17 @@ def _fill(s: FramingSituation, given: Array, common: Array) -> None:
     """Write the subjects and the reference pose into the parameters."""
     for i, body in enumerate(s.subjects):
         at, own = BOUND_PARAMETERS + EACH * i, SHARED_PARAMETERS + COMMON * i
-        wanted = body.wanted or Appearance()
+        appearance = body.wanted or Appearance()
         given[:, at : at + 3], given[:, at + 3 : at + 6] = body.point[1:], body.centre[1:]
-        given[:, at + 6 : at + EACH] = 0.0 if wanted.view is None else wanted.view[1:]
+        given[:, at + 6 : at + EACH] = 0.0 if appearance.view is None else appearance.view[1:]
         common[own : own + COMMON] = [
-            *(wanted.uv or (0.0, 0.0)),
-            wanted.size or 1.0,
+            *(appearance.uv or (0.0, 0.0)),
+            appearance.size or 1.0,
             body.diameter,
             *body.semi_axes,
-            wanted.uv is not None,
-            wanted.size is not None,
-            wanted.view is not None,
+            appearance.uv is not None,
+            appearance.size is not None,
+            appearance.view is not None,
         ]
     at, own = BOUND_PARAMETERS + EACH * len(s.subjects), SHARED_PARAMETERS + COMMON * len(s.subjects)
     given[:, at : at + NEAR], common[own : own + NEAR_COMMON] = 0.0, 0.0
@@ -157,9 +157,12 @@ def stage(of: RowCounts, cast: Cast) -> StageExpressions:
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
     bodied, own = BOUND_PARAMETERS + EACH * k, BOUND_PARAMETERS + EACH * k + NEAR
-    told = SHARED_PARAMETERS + COMMON * k
-    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", told + NEAR_COMMON + of.common)
-    near, shared = (p[bodied:own], g[told : told + NEAR_COMMON]), g[told + NEAR_COMMON :]
+    shared_count = SHARED_PARAMETERS + COMMON * k
+    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", shared_count + NEAR_COMMON + of.common)
+    near, shared = (
+        (p[bodied:own], g[shared_count : shared_count + NEAR_COMMON]),
+        g[shared_count + NEAR_COMMON :],
+    )
     step, most, (turn, tilt) = shared[0], shared[2], (g[9], g[10])
     bodies = [
         Symbols.of(
@@ -197,14 +200,14 @@ def stage(of: RowCounts, cast: Cast) -> StageExpressions:
 
 def _residuals(camera: CameraSymbols, u: Any, bodies: list[Symbols], cast: Cast, g: Any) -> Any:
     place, size, view, _, field, effort, turning = ca.vertsplit(g[:7])
-    found = [ca.sqrt(effort) * u[:3], ca.sqrt(turning) * u[3:]]
+    residuals = [ca.sqrt(effort) * u[:3], ca.sqrt(turning) * u[3:]]
     for body, filmed in zip(bodies, cast, strict=True):
         if filmed:
-            found.append(ca.sqrt(place) * off_place(camera, body))
-            found.append(ca.sqrt(size) * off_size(camera, body))
-            found.append(ca.sqrt(view) * off_view(camera, body))
-        found.append(ca.sqrt(field) * in_field(camera.place, body))
-    return ca.vertcat(*found)
+            residuals.append(ca.sqrt(place) * off_place(camera, body))
+            residuals.append(ca.sqrt(size) * off_size(camera, body))
+            residuals.append(ca.sqrt(view) * off_view(camera, body))
+        residuals.append(ca.sqrt(field) * in_field(camera.place, body))
+    return ca.vertcat(*residuals)
 
 
 def _off_pose(camera: CameraSymbols, place: Any, drawn: Any) -> Any:

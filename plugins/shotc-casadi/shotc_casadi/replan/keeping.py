@@ -59,28 +59,28 @@ class StaticObstacles:
 
     def __init__(self, keeping: Keeping) -> None:
         """Split the zones into convex parts."""
-        found = [room for zone in keeping.zones for room in rooms(zone, keeping.margin)]
+        solids = [solid for zone in keeping.zones for solid in rooms(zone, keeping.margin)]
         if np.isfinite(keeping.floor):
-            found.append(half_space((0.0, 0.0, 1.0), keeping.floor))
+            solids.append(half_space((0.0, 0.0, 1.0), keeping.floor))
         if np.isfinite(keeping.ceiling):
-            found.append(half_space((0.0, 0.0, -1.0), -keeping.ceiling))
-        self._rooms = found
-        self._discs = np.array([room.disc for room in found]).reshape(-1, 3)
+            solids.append(half_space((0.0, 0.0, -1.0), -keeping.ceiling))
+        self._rooms = solids
+        self._discs = np.array([solid.disc for solid in solids]).reshape(-1, 3)
 
-    def near(self, place: Array, way: float) -> tuple[SolidConstraint, ...]:
-        """Return the solids within a way of ``way`` metres; all if there are few."""
+    def near(self, place: Array, distance: float) -> tuple[SolidConstraint, ...]:
+        """Return the solids within a way of ``distance`` metres; all if there are few."""
         if len(self._rooms) <= LEAST_CONSTRAINTS:
             return tuple(self._rooms)
         x, y, radius = self._discs.T
         away = np.hypot(x - place[0], y - place[1]) - radius
-        return tuple(self._rooms[i] for i in np.flatnonzero(away < way + REACH_M))
+        return tuple(self._rooms[i] for i in np.flatnonzero(away < distance + REACH_M))
 
 
 def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic, walls: Walls) -> RowCounts:
     """Return which rows there are in one replan."""
     low, high = keeping.pitch
     return RowCounts(
-        tuple(room.shape for room in near),
+        tuple(solid.shape for solid in near),
         len(traffic.others),
         len(traffic.cones),
         low > -0.5 * np.pi,
@@ -103,7 +103,7 @@ def common(
         given.separation + given.margin,
     ]
     numbers += [given.half_angle or 0.0, *given.pitch, *limits.wind]
-    numbers += [number for room in near for number in room.parameters]
+    numbers += [number for solid in near for number in solid.parameters]
     if walls.count:
         numbers += _numbers(walls, given.margin)[-1].tolist()
     return [*numbers, *(cone.half_angle for cone in traffic.cones)]
@@ -133,22 +133,22 @@ def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
     place, v, back = state
     step, speed, _, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMIT_ROWS])
     cut = ca.sumsqr(v) * step**2 / 8
-    found = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
+    constraints = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
     for i in range(of.others):
-        other, way = p[6 * i : 6 * i + 3], p[6 * i + 3 : 6 * i + 6]
+        other, step_of_other = p[6 * i : 6 * i + 3], p[6 * i + 3 : 6 * i + 6]
         d = place - other
         # The relative motion of the two between two stages is straight, too.
-        cut = ca.sumsqr(step * v - way) / (8 * ca.fmax(apart, SHARP_M))
-        found.append(length(d) - apart - cut)
+        cut = ca.sumsqr(step * v - step_of_other) / (8 * ca.fmax(apart, SHARP_M))
+        constraints.append(length(d) - apart - cut)
         if of.framed:
-            found.append(beside_cone(d, back, half_angle))
+            constraints.append(beside_cone(d, back, half_angle))
     for i in range(of.cones):
         at = 6 * (of.others + i)
         angle = g[of.common - of.cones + i]
-        found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
-    found += [ca.dot(wall[:3], place) - wall[3] for wall in _walls(of, p, of.each)]
-    found.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMIT_ROWS - 2 : LIMIT_ROWS]) + STANDING_MS**2))
-    return ca.vertcat(*found)
+        constraints.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
+    constraints += [ca.dot(wall[:3], place) - wall[3] for wall in _walls(of, p, of.each)]
+    constraints.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMIT_ROWS - 2 : LIMIT_ROWS]) + STANDING_MS**2))
+    return ca.vertcat(*constraints)
 
 
 def within(a: Any, most: Any) -> tuple[Any, Any]:
@@ -166,13 +166,13 @@ def ends(of: RowCounts, place: Any, v: Any, g: Any) -> Any:
     """
     acceleration, reaction = g[2], g[3]
     seconds = reaction + ca.sqrt(ca.sumsqr(v) + STANDING_MS**2) / (2 * acceleration)
-    found = []
+    constraints = []
     for shape, sizes in _rooms(of, g):
-        room = free_at(shape, place, sizes)
-        found.append(room + seconds * ca.jtimes(room, place, v))
+        slack = free_at(shape, place, sizes)
+        constraints.append(slack + seconds * ca.jtimes(slack, place, v))
     stands = place + seconds * v
-    found += [ca.dot(wall[:3], stands) - wall[3] for wall in _walls(of, g, of.common - of.cones)]
-    return ca.vertcat(*found) if found else ca.SX(0, 1)
+    constraints += [ca.dot(wall[:3], stands) - wall[3] for wall in _walls(of, g, of.common - of.cones)]
+    return ca.vertcat(*constraints) if constraints else ca.SX(0, 1)
 
 
 def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
@@ -210,12 +210,12 @@ def pitched(of: RowCounts, q: Any, g: Any) -> Any:
     """
     low, high = g[6], g[7]
     flat = ca.sqrt(ca.sumsqr(q[:2]) + TINY_M**2)
-    found = []
+    constraints = []
     if of.low:
-        found.append(-ca.sin(low) * flat - ca.cos(low) * q[2])
+        constraints.append(-ca.sin(low) * flat - ca.cos(low) * q[2])
     if of.high:
-        found.append(ca.sin(high) * flat + ca.cos(high) * q[2])
-    return ca.vertcat(*found)
+        constraints.append(ca.sin(high) * flat + ca.cos(high) * q[2])
+    return ca.vertcat(*constraints)
 
 
 def length(d: Any) -> Any:

@@ -65,8 +65,8 @@ class CameraSymbols(NamedTuple):
 def off_place(camera: CameraSymbols, subject: Symbols) -> Any:
     """Return the difference of unit rays as a column; half frames near the middle of the picture (Eq. 7)."""
     ray, half = subject.point - camera.place, camera.half
-    wanted = ca.vertcat(subject.uv[0] * half[0], subject.uv[1] * half[1], 1)
-    apart = camera.seen(ray) / length(ray) - wanted / ca.norm_2(wanted)
+    direction = ca.vertcat(subject.uv[0] * half[0], subject.uv[1] * half[1], 1)
+    apart = camera.seen(ray) / length(ray) - direction / ca.norm_2(direction)
     return subject.placed * apart / ca.vertcat(half[0], half[1], half[0])
 
 

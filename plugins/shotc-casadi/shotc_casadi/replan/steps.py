@@ -57,7 +57,7 @@ class Solver:
         self._shape, self._inputs = (of.stages, -1), of.inputs
         self._solver: Any = None
 
-    def walk(self, inputs: Array, until: Until) -> Walk:
+    def walk(self, inputs: Array, stop_rule: Until) -> Walk:
         """Take steps from inputs (N, U)."""
         taken, moved, opened = 0, False, False
         point = self.evaluation.step(inputs)
@@ -72,8 +72,8 @@ class Solver:
             better = None if step is None else self._better(point, step)
             if better is None:
                 return Walk(point, taken, not moved, opened)
-            settled = point.merit - better.merit < until.gain * abs(point.merit)
-            if settled or taken == until.most:
+            settled = point.merit - better.merit < stop_rule.gain * abs(point.merit)
+            if settled or taken == stop_rule.most:
                 return Walk(better, taken, stalled=False, opened=opened)
             point, moved = self.evaluation.step(better.inputs), True
 
@@ -92,9 +92,9 @@ class Solver:
     def _better(self, point: Rollout, step: Array) -> Rollout | None:
         share = 1.0
         for _ in range(MOST_TRIES):
-            found = self.evaluation.motion(point.inputs + share * step)
-            if found.merit < point.merit:  # false for NaN
-                return found
+            motion = self.evaluation.motion(point.inputs + share * step)
+            if motion.merit < point.merit:  # false for NaN
+                return motion
             share *= SHORTER_RATIO
         return None
 
