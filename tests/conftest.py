@@ -7,6 +7,9 @@ import os
 import pkgutil
 import signal
 from importlib import import_module
+from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 
 import pytest
 from hypothesis import settings
@@ -26,8 +29,33 @@ if CI:
                 import_module(module.name)
 
 
+UNMARKED = "unmarked"
+BEGIN = pytest.StashKey[float]()
+LIMITS = (("long", 1.0), ("slow", 0.2))
+"""Marks, and the seconds of CPU from which on a test has one of them or one further up."""
+
+
+def cpu_seconds():
+    """Return the CPU that this process and its ended children have taken."""
+    return sum(os.times()[:4])
+
+
 def pytest_addoption(parser):
     parser.addoption("--bless", action="store_true", help="rewrite golden files instead of comparing")
+
+
+@pytest.fixture
+def tmp_path(request, tmp_path_factory):
+    """A folder of a test, removed where the test passed.
+
+    That of pytest looks through the folders of all earlier tests for a number, sets a link, and leaves the
+    folders to the end of the run: 2 ms each, and ten times that on a slow disk.
+    """
+    failed = request.session.testsfailed
+    folder = Path(mkdtemp(dir=tmp_path_factory.getbasetemp()))
+    yield folder
+    if request.session.testsfailed == failed:
+        rmtree(folder, ignore_errors=True)
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -47,6 +75,35 @@ def pytest_collection_finish(session):
             raise pytest.UsageError(f"pytest-xdist does not see the group of {loose[0]}")
     gc.collect()
     gc.freeze()
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_setup(item):
+    item.stash[BEGIN] = cpu_seconds()
+    return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Note a test that lacks the mark of what it takes, in CPU, which a loaded machine hardly changes."""
+    report = yield
+    if call.when == "teardown":
+        spent = cpu_seconds() - item.stash[BEGIN]
+        for k, (mark, least) in enumerate(LIMITS):
+            if spent >= least and not any(item.get_closest_marker(name) for name, _ in LIMITS[: k + 1]):
+                report.user_properties.append((UNMARKED, f"{spent:.1f} s of CPU, not marked {mark}"))
+                break
+    return report
+
+
+def pytest_terminal_summary(terminalreporter):
+    """List the tests that lack a mark; the first one to import a library is listed with the time of that."""
+    reports = terminalreporter.stats.get("", ())
+    told = [(text, r.nodeid) for r in reports for name, text in r.user_properties if name == UNMARKED]
+    if told:
+        terminalreporter.section("tests without a mark of what they take")
+        for text, name in sorted(told, key=lambda each: -float(each[0].split()[0])):
+            terminalreporter.line(f"{text}: {name}")
 
 
 def pytest_configure(config):

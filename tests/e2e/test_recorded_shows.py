@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +19,7 @@ from shotc.ir.light_colors import light_colors
 from shotc.show.emit.skyc import EMITTER as SKYC
 from shotc.show.emit.zipped_csv import EMITTER as ZIPPED_CSV
 from tests.support.compiled import compiled_text
-from tests.support.flight_files import zipped
+from tests.support.flight_files import bomb, zipped
 from tests.support.recorded_shows import (
     COUNT,
     HEAD,
@@ -103,18 +105,18 @@ def test_one_that_is_three_times_too_fast_takes_longer_on_the_same_ways(tmp_path
 
 
 @pytest.mark.parametrize(
-    ("file", "data", "origin", "codes_told", "phases"),
+    ("file", "made", "origin", "codes_told", "phases"),
     [
-        ("a.zip", csv_show(flown(lean=1.0)), "[0, 0, 0]", ["D155", "D155"], 5),
-        ("a.zip", csv_show(flown()), "[-20, 3, 0]", [], 5),
-        ("a.skyc", skyc_show(flown()), "[0, 0, 0]", [], 3),
+        ("a.zip", lambda: csv_show(flown(lean=1.0)), "[0, 0, 0]", ["D155", "D155"], 5),
+        ("a.zip", lambda: csv_show(flown()), "[-20, 3, 0]", [], 5),
+        ("a.skyc", lambda: skyc_show(flown()), "[0, 0, 0]", [], 3),
     ],
     ids=["leaning", "other pads", "a show of Skybrush"],
 )
 def test_the_fleet_takes_off_by_itself_where_the_file_has_no_way_straight_up(
-    file: str, data: bytes, origin: str, codes_told: list[str], phases: int, tmp_path: Path
+    file: str, made: Callable[[], bytes], origin: str, codes_told: list[str], phases: int, tmp_path: Path
 ) -> None:
-    done = planned(tmp_path, file, data, origin=origin)
+    done = planned(tmp_path, file, made(), origin=origin)
     assert [code for code in codes(done) if code != "D154"] == codes_told
     track = flight(done)
     assert len(track.phases) == phases
@@ -127,66 +129,80 @@ def test_the_fleet_takes_off_by_itself_where_the_file_has_no_way_straight_up(
         assert sorted(away.argmin(axis=1)) == list(range(COUNT))
 
 
-GOOD = tables(flown())
-ROWS = GOOD["Drone 1.csv"].decode().splitlines()
+@cache
+def good() -> dict[str, bytes]:
+    return tables(flown())
+
+
+def first_rows() -> list[str]:
+    return good()["Drone 1.csv"].decode().splitlines()
 
 
 def spoilt(**changes: str) -> bytes:
-    first = "\n".join(ROWS[: int(changes.get("cut", "1000"))])
+    first = "\n".join(first_rows()[: int(changes.get("cut", "1000"))])
     for old, new in changes.items():
         first = first.replace(old, new) if old != "cut" else first
-    return zipped({**GOOD, "Drone 1.csv": first.encode()})
+    return zipped({**good(), "Drone 1.csv": first.encode()})
 
 
 def jumping() -> bytes:
-    rows = [row.split(",") for row in ROWS]
+    rows = [row.split(",") for row in first_rows()]
     for row in rows[80:]:
         row[1] = str(float(row[1]) + 90.0)
-    return zipped({**GOOD, "Drone 1.csv": "\n".join(map(",".join, rows)).encode()})
+    return zipped({**good(), "Drone 1.csv": "\n".join(map(",".join, rows)).encode()})
 
 
 def waiting() -> bytes:
-    rows = [row.split(",") for row in ROWS[1:]]
+    rows = [row.split(",") for row in first_rows()[1:]]
     flat = "\n".join([HEAD, *(",".join([row[0], row[1], row[2], "0", *row[4:]]) for row in rows)])
-    return zipped({**GOOD, "Drone 1.csv": flat.encode()})
+    return zipped({**good(), "Drone 1.csv": flat.encode()})
 
 
 def show_of(change: object) -> bytes:
     return skyc_show(flown(), trajectory=change)
 
 
-BAD: dict[str, tuple[str, bytes, str, str]] = {
-    "cut short": ("a.zip", csv_show(flown())[:900], "N009", "breaks off: after 900 bytes"),
-    "no archive": ("a.zip", b"hello" * 100, "N009", "no ZIP archive"),
-    "empty": ("a.skyc", b"", "N009", "empty"),
-    "a bomb": ("a.zip", zipped({"a.csv": b"0,0,0,0\n" * 30_000_000}), "D150", "larger than 200 MB"),
-    "no table": ("a.zip", zipped({"read me.txt": b"hello"}), "D150", "without a CSV file"),
-    "no show": ("a.skyc", zipped({"read me.txt": b"hello"}), "D150", "without `show.json`"),
+BAD: dict[str, tuple[str, Callable[[], bytes], str, str]] = {
+    "cut short": ("a.zip", lambda: csv_show(flown())[:900], "N009", "breaks off: after 900 bytes"),
+    "no archive": ("a.zip", lambda: b"hello" * 100, "N009", "no ZIP archive"),
+    "empty": ("a.skyc", lambda: b"", "N009", "empty"),
+    "a bomb": ("a.zip", lambda: bomb("a.csv"), "D150", "larger than 200 MB"),
+    "no table": ("a.zip", lambda: zipped({"read me.txt": b"hello"}), "D150", "without a CSV file"),
+    "no show": ("a.skyc", lambda: zipped({"read me.txt": b"hello"}), "D150", "without `show.json`"),
     "lacks a column": (
-        "a.zip", zipped({**GOOD, "Drone 1.csv": b"0,0,0\n1000,0,0\n"}), "D150", "a.zip/Drone 1.csv, line 1",
+        "a.zip",
+        lambda: zipped({**good(), "Drone 1.csv": b"0,0,0\n1000,0,0\n"}),
+        "D150",
+        "a.zip/Drone 1.csv, line 1",
     ),
-    "not a number": ("a.zip", spoilt(**{"\n1000,0.000": "\n1000,nan"}), "D150", "Drone 1.csv, line 6"),
-    "out of order": ("a.zip", spoilt(**{"\n1250,": "\n250,"}), "D150", "0.25 s, does not come after"),
-    "ends in the air": ("a.zip", spoilt(cut="60"), "D150", "ends at 14.5 s"),
-    "a drone too few": ("a.zip", zipped(dict(list(GOOD.items())[1:])), "D151", "write `count: 8`"),
-    "a jump": ("a.zip", jumping(), "D153", "`Drone 1.csv` of `a.zip` jumps at 19."),
-    "stays on the ground": ("a.zip", waiting(), "D152", "`Drone 1.csv` never comes 2.25 m above the ground"),
+    "not a number": (
+        "a.zip", lambda: spoilt(**{"\n1000,0.000": "\n1000,nan"}), "D150", "Drone 1.csv, line 6",
+    ),
+    "out of order": ("a.zip", lambda: spoilt(**{"\n1250,": "\n250,"}), "D150", "0.25 s, does not come after"),
+    "ends in the air": ("a.zip", lambda: spoilt(cut="60"), "D150", "ends at 14.5 s"),
+    "a drone too few": ("a.zip", lambda: zipped(dict(list(good().items())[1:])), "D151", "write `count: 8`"),
+    "a jump": ("a.zip", jumping, "D153", "`Drone 1.csv` of `a.zip` jumps at 19."),
+    "stays on the ground": ("a.zip", waiting, "D152", "`Drone 1.csv` never comes 2.25 m above the ground"),
     "times of a show that fall": (
         "a.skyc",
-        show_of({"version": 1, "points": [[0, [0, 0, 0], []], [2, [0, 0, 9], []], [1, [0, 0, 0], []]]}),
+        lambda: show_of(
+            {"version": 1, "points": [[0, [0, 0, 0], []], [2, [0, 0, 9], []], [1, [0, 0, 0], []]]}
+        ),
         "D150",
         "points[2]`, 1 s, does not come after 2 s",
     ),
     "a curve of no degree": (
         "a.skyc",
-        show_of({"version": 1, "points": [[0, [0, 0, 0], []], [9, [0, 0, 9], [[0, 0, 1]] * 5]]}),
+        lambda: show_of({"version": 1, "points": [[0, [0, 0, 0], []], [9, [0, 0, 9], [[0, 0, 1]] * 5]]}),
         "D150",
         "no line, quadratic or cubic",
     ),
-    "a part that is not there": ("a.skyc", show_of({"$ref": "./gone.json#"}), "D150", "without `gone.json`"),
+    "a part that is not there": (
+        "a.skyc", lambda: show_of({"$ref": "./gone.json#"}), "D150", "without `gone.json`",
+    ),
     "a light that is none": (
         "a.skyc",
-        skyc_show(flown(), lights={"version": 1, "data": "BAEC"}),
+        lambda: skyc_show(flown(), lights={"version": 1, "data": "BAEC"}),
         "D150",
         "breaks off after 3 bytes",
     ),
@@ -195,8 +211,8 @@ BAD: dict[str, tuple[str, bytes, str, str]] = {
 
 @pytest.mark.parametrize("name", BAD)
 def test_what_is_wrong_with_a_file_is_told_with_its_place_and_a_way_out(name: str, tmp_path: Path) -> None:
-    file, data, code, said = BAD[name]
-    done = planned(tmp_path, file, data)
+    file, made, code, said = BAD[name]
+    done = planned(tmp_path, file, made())
     (told,) = done.diagnostics
     assert told.code == code
     assert said in " ".join([told.message, *told.notes, told.help])

@@ -83,6 +83,7 @@ def test_an_emitter_that_cannot_be_imported_fails_only_who_asks_for_it(install):
     assert {a.name for a in made.artifacts} == {"plan.json", "trajectory.csv", "framing.csv"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "said"),
     [

@@ -79,6 +79,7 @@ def planned(mission, **options):
     return done
 
 
+@pytest.mark.slow
 def test_the_kinds_plan_with_targets_that_stand_and_that_move(examples):
     shot = planned(SWING).plan.trajectory.keyframes.mission.shots[0]
     first, *_, last = (k.at for k in shot.keyframes)

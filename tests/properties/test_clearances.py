@@ -67,6 +67,7 @@ PLACES = st.tuples(numbers(-90, 90), numbers(-90, 90), numbers(-2, 80))
 RULES = st.tuples(numbers(0.5, 6), numbers(3, 30), numbers(0.5, 4), numbers(0.5, 4))
 
 
+@pytest.mark.slow
 @given(RULES, PLACES)
 def test_the_planners_rule_is_the_judges(rules: tuple[float, float, float, float], place: Vec3) -> None:
     mission = mission_of(*rules)
@@ -83,6 +84,7 @@ def test_the_planners_rule_is_the_judges(rules: tuple[float, float, float, float
             assert judged[name] < 0.0
 
 
+@pytest.mark.slow
 @given(RULES, PLACES)
 def test_a_room_is_what_its_clearances_leave(rules: tuple[float, float, float, float], place: Vec3) -> None:
     mission = mission_of(*rules)

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import copy
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import yaml
 from hypothesis import strategies as st
 
+from tests.support.written_missions import SAFE_LOADER
+
 ROOT = Path(__file__).parents[2]
 MISSIONS = sorted([*ROOT.glob("specs/*.yaml"), *ROOT.glob("shotc/templates/*.yaml")])
 SHOWS = sorted(Path(__file__).with_name("shows").glob("*.yaml"))
 CHECKED = [*MISSIONS, *SHOWS, *SHOWS, *SHOWS]  # shows are few
 TEXTS = [path.read_bytes() for path in CHECKED]
-TREES = [yaml.safe_load(text) for text in TEXTS]
 
 NUMBERS: list[Any] = [math.nan, math.inf, -math.inf, 1e300, -1e300, 1e-300, 0, -1, 0.5, 10**400, True, None]
 QUANTITIES = [
@@ -64,6 +66,12 @@ MAPPINGS: list[Any] = [
 HOSTILE = [*NUMBERS, *QUANTITIES, *WORDS, *LISTS, *MAPPINGS]
 
 Place = tuple[str | int, ...]
+
+
+@cache
+def trees() -> list[Any]:
+    """Return the missions that are to be damaged, in the order of TEXTS."""
+    return [yaml.load(text, SAFE_LOADER) for text in TEXTS]
 
 
 def places(tree: Any, path: Place = ()) -> list[Place]:
@@ -123,7 +131,7 @@ EDITS = (replace, replace, replace, replace, drop, rename, add, wrap, borrow)
 def damaged_trees(draw: st.DrawFn) -> tuple[bytes, Path]:
     """A mission with one to three edits, and the folder of its files."""
     index = draw(st.integers(0, len(CHECKED) - 1))
-    tree = copy.deepcopy(TREES[index])
+    tree = copy.deepcopy(trees()[index])
     for _ in range(draw(st.integers(1, 3))):
         if found := places(tree):
             edit, place, value = (draw(st.sampled_from(x)) for x in (EDITS, found, HOSTILE))
@@ -135,7 +143,7 @@ def damaged_trees(draw: st.DrawFn) -> tuple[bytes, Path]:
 def bent_trees(draw: st.DrawFn) -> tuple[bytes, Path]:
     """A mission with one or two numbers scaled, which may still be one, and the folder of its files."""
     index = draw(st.integers(0, len(MISSIONS) - 1))
-    tree = copy.deepcopy(TREES[index])
+    tree = copy.deepcopy(trees()[index])
     numbers = [p for p in places(tree) if type(at(tree, p)) in (int, float) and p != ("shotc",)]
     for _ in range(draw(st.integers(1, 2))):
         place = draw(st.sampled_from(numbers))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from hashlib import sha256
 from math import atan2, pi, radians
 
@@ -122,6 +123,7 @@ def orbit_mission(*, origin: bool = True) -> MissionIR:
     )
 
 
+@cache
 def orbit_plan(*, origin: bool = True) -> VerifiedIR:
     """Take-off, transit, a filmed half orbit, return and landing: C2, within every limit."""
     mission = orbit_mission(origin=origin)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -90,6 +91,15 @@ def zipped(files: dict[str, bytes], how: int = ZIP_DEFLATED) -> bytes:
     with ZipFile(stream, "w", how) as archive:
         for name, data in files.items():
             archive.writestr(name, data)
+    return stream.getvalue()
+
+
+@cache
+def bomb(name: str) -> bytes:
+    """A small archive of one table of 208 MB."""
+    stream = BytesIO()
+    with ZipFile(stream, "w", ZIP_DEFLATED, compresslevel=1) as archive:
+        archive.writestr(name, b"0,0,0,0\n" * 26_000_000)
     return stream.getvalue()
 
 

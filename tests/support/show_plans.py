@@ -14,7 +14,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.rules import Rules
 from shotc.ir.show import Apart, Display, Fleet, Picture, Sphere, Torus
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
-from shotc.passes.verify import judge
+from tests.support.verdicts import verdict_on
 
 CONTEXT = PassContext()
 STEP = 2.0
@@ -125,4 +125,4 @@ def show(asked: MissionIR | None = None) -> TrajectoryIR:
 def plan(asked: MissionIR | None = None) -> VerifiedIR:
     """Return the show with its own certificate; what it breaks is for the test to know."""
     ir = show(asked)
-    return VerifiedIR(ir, judge(ir, CONTEXT).certificate)
+    return VerifiedIR(ir, verdict_on(ir).certificate)

@@ -6,23 +6,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.mission import MissionIR, Zone
-from shotc.ir.passes import PassContext
-from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
+from shotc.ir.trajectory import TrajectoryIR
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 
 PLAN = orbit_plan().trajectory
-CONTEXT = PassContext()
 MISSION = PLAN.keyframes.mission
-
-
-def codes(ir: TrajectoryIR) -> list[str]:
-    return sorted({d.code for d in judge(ir, CONTEXT).diagnostics})
-
-
-def claim(ir: TrajectoryIR, constraint: str) -> Claim:
-    return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)
 
 
 def with_track(ir: TrajectoryIR = PLAN, **changes: object) -> TrajectoryIR:

@@ -139,6 +139,7 @@ def test_a_bare_number_is_si(dimension, number):
     assert parse_quantity(number, dimension) == pytest.approx(parse_quantity(written, dimension), rel=1e-12)
 
 
+@pytest.mark.slow
 @given(JSON, DIMENSIONS)
 def test_anything_is_a_bounded_number_or_a_fault(value, dimension):
     try:

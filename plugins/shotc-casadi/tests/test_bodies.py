@@ -116,6 +116,7 @@ def test_the_hard_solution_is_found_by_any_price_that_is_high_enough() -> None:
     assert body.distance(cheap.states[:, :3]).min() < 0.9
 
 
+@pytest.mark.slow
 def test_where_there_is_no_way_out_the_slack_is_what_is_lacking() -> None:
     made, body = in_the_way(0.3, 1e3)
     # The place where the motion begins is given, and now lies in it.

@@ -97,6 +97,7 @@ def test_a_path_that_shows_less_is_held_to_the_convex_one():
     assert tighter(Margins(), Check(0.0, 0.0, 0.0, 0.1), hold=True).hold == 1.0
 
 
+@pytest.mark.slow
 def test_one_that_shows_less_in_every_round_is_not_flown(path, monkeypatch):
     monkeypatch.setattr(rounds, "checked", lambda *_: Check(0.0, 0.0, 0.2, 0.0))
     done = refiner.OURS.refine(path, PassContext())
@@ -106,6 +107,7 @@ def test_one_that_shows_less_in_every_round_is_not_flown(path, monkeypatch):
     assert "its convex path shows more of its targets" in warning.message
 
 
+@pytest.mark.slow
 def test_a_refined_path_past_a_tree_shows_no_less(path):
     (subject,) = refiner.subjects(path)
     refined = rounds.refine_shot(subject, conditions.OURS)

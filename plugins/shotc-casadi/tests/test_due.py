@@ -32,6 +32,7 @@ def test_a_wait_at_the_start_is_no_flight(leg):
     assert due(waiting).t.tolist() == [0.0, 21.0, 54.0]
 
 
+@pytest.mark.slow
 def test_a_shot_that_lasts_on_at_its_last_keyframe_gets_there_in_time(leg):
     *others, last = leg.marks
     resting = replace(leg, marks=(*others, replace(last, time=50.0)))

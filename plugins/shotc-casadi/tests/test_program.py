@@ -149,6 +149,7 @@ def test_bounds_that_cross_are_nobodys_solution(solver):
     assert solve(replace(made, state_bounds=(low, high)), solver).status == "nan"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("width", [0.0, 1e-9, 1e-6, 1e-4])
 @pytest.mark.parametrize(("which", "middle"), [(PITCH, -0.15), (PITCH_RATE, 0.0)])
@@ -208,6 +209,7 @@ def test_a_call_that_waits_for_the_processor_has_the_time_that_it_needs():
     assert within(0.1, lambda: time.sleep(0.3) or 7) == 7
 
 
+@pytest.mark.slow
 def test_a_solver_that_does_not_end_is_left_behind(monkeypatch):
     slow = lru_cache(lambda *_: at_work)
     monkeypatch.setattr(solving, "TIMEOUT_S", 0.05)

@@ -133,6 +133,7 @@ def flown(stages: int, seed: int | None) -> Flown:
     return fly(ShotChase(problem(stages, zone(TREE))), lateral(stages, seed), 20.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [None, 1, 2])
 @pytest.mark.parametrize("stages", HORIZONS)
 def test_a_vehicle_that_lags_never_enters_the_zone(stages, seed):

@@ -89,6 +89,7 @@ def test_the_motion_is_that_of_its_inputs_within_all_limits():
         assert np.linalg.norm(v[1:, :2], axis=1).max() < SLOW.speed + 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_a_flight_frames_its_subjects_and_comes_near_none(count):
     one = flown(count)

@@ -156,13 +156,28 @@ def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
     """Return the least distance between straight motions, and the share of the motion there,
     shape (K,) each.
     """
+    if upright:
+        share = _least_upright(one, other)
+    else:
+        way = other - one
+        length = np.maximum(_dot(way, way), np.finfo(float).tiny)
+        share = np.clip(-_dot(one, way) / length, 0.0, 1.0)
+    return _size(one, other, share, upright), share
+
+
+def _least_upright(one: Array, other: Array) -> Array:
+    """Return the share of the motion at which the larger of the two distances is least, shape (K,)."""
     low, high = np.zeros(len(one)), np.ones(len(one))
     for _ in range(MOST_NARROWINGS):
         left, right = low + (high - low) / 3.0, high - (high - low) / 3.0
-        nearer = _size(one, other, left, upright) < _size(one, other, right, upright)
+        nearer = _size(one, other, left, upright=True) < _size(one, other, right, upright=True)
         low, high = np.where(nearer, low, left), np.where(nearer, right, high)
-    share = 0.5 * (low + high)
-    return _size(one, other, share, upright), share
+    return np.asarray(0.5 * (low + high))
+
+
+def _dot(a: Array, b: Array) -> Array:
+    """Return the products of rows, shape (K,)."""
+    return np.asarray(np.einsum("ij,ij->i", a, b))
 
 
 def _size(one: Array, other: Array, share: Array, upright: bool) -> Array:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Callable
+from functools import cache
 
 import pytest
 
@@ -19,24 +20,35 @@ def unescaped(text: str) -> bytes:
     return text.encode().decode("unicode_escape").encode("latin-1") if "\\x" in text else text.encode()
 
 
-def check(text: str, folder: Path) -> list[Diagnostic]:
-    return placed(unescaped(text), folder)[1]
+Check = Callable[[str], list[Diagnostic]]
+
+
+@pytest.fixture(scope="module")
+def check(tmp_path_factory: pytest.TempPathFactory) -> Check:
+    """Check an example in an empty folder; many codes have the same one that passes."""
+    folder = tmp_path_factory.mktemp("empty")
+
+    @cache
+    def checked(text: str) -> list[Diagnostic]:
+        return placed(unescaped(text), folder)[1]
+
+    return checked
 
 
 @pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
-def test_the_failing_example_raises_its_code_alone(info: CodeInfo, tmp_path: Path) -> None:
-    found = check(info.failing, tmp_path)
+def test_the_failing_example_raises_its_code_alone(info: CodeInfo, check: Check) -> None:
+    found = check(info.failing)
     assert {d.code for d in found} == {info.code}, found
 
 
 @pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
-def test_the_passing_example_is_clean(info: CodeInfo, tmp_path: Path) -> None:
-    assert check(info.passing, tmp_path) == []
+def test_the_passing_example_is_clean(info: CodeInfo, check: Check) -> None:
+    assert check(info.passing) == []
 
 
 @pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
-def test_a_diagnostic_reads_as_one_should(info: CodeInfo, tmp_path: Path) -> None:
-    for d in check(info.failing, tmp_path):
+def test_a_diagnostic_reads_as_one_should(info: CodeInfo, check: Check) -> None:
+    for d in check(info.failing):
         assert d.labels, "it points at a line"
         assert d.labels[0].span.line <= info.failing.count("\n") + 1
         assert not d.message.endswith(".")

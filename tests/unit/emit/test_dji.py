@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import xml.etree.ElementTree as ET
+from functools import cache
 from itertools import pairwise
 from math import pi
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -66,9 +67,15 @@ def emitted(source, autopilot="dji-fly"):
     return EMITTER.emit(retold(source, autopilot=autopilot))
 
 
-@pytest.fixture(scope="module")
+@cache
+def of_orbit(autopilot):
+    """The sample plan, emitted once for all tests that read it."""
+    return emitted(orbit_plan(), autopilot)
+
+
+@pytest.fixture
 def orbit():
-    return emitted(orbit_plan())
+    return of_orbit("dji-fly")
 
 
 def waylines(emission):
@@ -87,7 +94,7 @@ def test_the_file_has_two_entries_and_no_folders(orbit):
     [("dji-fly", FLY, "http://www.uav.com/wpmz/1.0.2"), ("pilot-2", PILOT, "http://www.dji.com/wpmz/1.0.6")],
 )
 def test_elements_stand_in_the_order_of_the_app(autopilot, order, space):
-    root = waylines(emitted(orbit_plan(), autopilot))
+    root = waylines(of_orbit(autopilot))
     marks = [e for e in root.iter() if local(e) == "Placemark"]
     assert all(once(mark) == [n for n in order if n in once(mark)] for mark in marks)
     assert once(marks[0]) == order
@@ -121,7 +128,7 @@ def test_the_gimbal_turns_evenly_to_the_pitch_of_the_next_point(orbit):
 def test_the_template_holds_the_points_for_pilot_2_alone():
     sizes = {}
     for autopilot in ("dji-fly", "pilot-2"):
-        data = emitted(orbit_plan(), autopilot).artifacts[0].data
+        data = of_orbit(autopilot).artifacts[0].data
         root = ET.fromstring(parts(data)["wpmz/template.kml"][1])
         sizes[autopilot] = len([e for e in root.iter() if local(e) == "Placemark"])
         assert texts(root, "finishAction") == ["autoLand"]
@@ -202,6 +209,7 @@ def test_a_curve_that_would_swing_into_a_zone_is_not_written():
     assert EMITTER.emit(plan(weaving(1.0, 2.0), mission=free, autopilot="dji-fly")).artifacts
 
 
+@pytest.mark.slow
 def test_points_are_never_nearer_to_each_other_than_machines_take():
     geo_free = EMITTER.emit(
         plan(weaving(1.0, 2.0), mission=replace(orbit_mission(), zones=()), autopilot="dji-fly")
@@ -231,6 +239,7 @@ def test_a_camera_that_turns_while_the_drone_stands_is_told_with_its_error():
     assert "turns by 34 deg while the drone stands" in told.notes[1]
 
 
+@pytest.mark.slow
 def test_a_zoom_is_told_with_what_it_does_to_the_edge_of_the_picture():
     trajectory = straight()
     ctrl = trajectory.curve.ctrl.copy()
@@ -245,6 +254,7 @@ def test_a_zoom_is_told_with_what_it_does_to_the_edge_of_the_picture():
     assert off == pytest.approx(1 - np.tan(np.radians(25)) / np.tan(np.radians(35)), abs=0.005)
 
 
+@pytest.mark.slow
 def test_a_target_that_moves_drifts_by_the_worst_time_error():
     mission = orbit_mission()
     moving = TOWER._replace(track=Track((0.0,), ((0.0, 0.0, 12.0),), after=(2.0, 0.0, 0.0)))
@@ -258,6 +268,7 @@ def test_a_target_that_moves_drifts_by_the_worst_time_error():
     assert len(told.notes) == 2
 
 
+@pytest.mark.slow
 def test_a_target_whose_way_the_drone_crosses_is_told_as_such():
     crossing = TOWER._replace(track=Track((0.0,), ((20.0, -200.0, 12.0),), after=(0.0, 5.0, 0.0)))
     mission = replace(orbit_mission(), targets=(crossing,))
@@ -266,6 +277,7 @@ def test_a_target_whose_way_the_drone_crosses_is_told_as_such():
     assert told.notes[2] == "timing alone keeps the drone clear of `tower`, whose way it crosses"
 
 
+@pytest.mark.slow
 def test_drones_that_timing_alone_keeps_apart_get_no_files():
     mission = orbit_mission()
     one = mission.drones[0]._replace(autopilot="dji-fly")
@@ -292,6 +304,7 @@ def test_drones_that_timing_alone_keeps_apart_get_no_files():
     assert "E120" not in [d.code for d in EMITTER.emit(free).diagnostics]
 
 
+@pytest.mark.slow
 def test_a_drone_that_timing_keeps_apart_from_one_with_a_clock_gets_no_file():
     mission = orbit_mission()
     one = mission.drones[0]._replace(autopilot="dji-fly")
@@ -310,8 +323,8 @@ def test_a_drone_that_timing_keeps_apart_from_one_with_a_clock_gets_no_file():
     assert emission.notes[0] == "dji: no file for cam2 (px4), flown otherwise"
 
 
-def test_a_mission_is_split_at_its_stops_and_joined_again():
-    points = read_kmz(emitted(orbit_plan()).artifacts[0].data)
+def test_a_mission_is_split_at_its_stops_and_joined_again(orbit):
+    points = read_kmz(orbit.artifacts[0].data)
     blocks = split(points, np.ones(len(points) - 1), replace(FORMAT, most=9))
     assert [len(b) <= 9 for b in blocks] == [True] * len(blocks)
     assert all(a[-1].place == b[0].place for a, b in pairwise(blocks))
@@ -320,8 +333,8 @@ def test_a_mission_is_split_at_its_stops_and_joined_again():
     assert [p.actions for p in again] == [p.actions for p in points]
 
 
-def test_a_file_is_no_longer_than_its_format_takes():
-    points = read_kmz(emitted(orbit_plan()).artifacts[0].data)
+def test_a_file_is_no_longer_than_its_format_takes(orbit):
+    points = read_kmz(orbit.artifacts[0].data)
     legs = np.linspace(4.0, 12.0, len(points) - 1)
     blocks = split(points, legs, replace(FORMAT, farthest=50.0))
     assert len(blocks) > 1

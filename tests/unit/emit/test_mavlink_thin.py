@@ -108,6 +108,7 @@ def test_legs_do_not_cut_a_clearance_that_the_curve_keeps() -> None:
     assert deepest(work.legs(loose)) < 0.05
 
 
+@pytest.mark.slow
 def test_legs_do_not_cut_the_clearance_of_a_building_either() -> None:
     turn = np.linspace(0, 2 * np.pi, 121)
     ring = 38.0 * np.column_stack([np.cos(turn), np.sin(turn)])
@@ -166,6 +167,7 @@ def test_a_centred_target_is_followed_and_an_off_centre_one_gets_places_by_leg()
     assert thinner(plan(turned, gimbal=fixed)).style.aimed == frozenset()
 
 
+@pytest.mark.slow
 def test_the_region_of_a_leg_lies_where_the_camera_axes_meet() -> None:
     source = plan(SAMPLE.trajectory.drones[0])
     work = thinner(source, replace(thinner(source).style, followed={}, aimed=frozenset({"half"})))

@@ -75,6 +75,7 @@ def blue(shown: PictureRectangle, told: MissionIR) -> int:
     return int((pixels[..., 2] - pixels[..., 0] > 60).sum())
 
 
+@pytest.mark.slow
 def test_a_hill_hides_the_target_behind_it() -> None:
     assert blue(look(), mission(ridge(), mast(-50.0))) > 100, "before the hill"
     assert blue(look(), mission(ridge(), mast(50.0))) == 0, "behind it"

@@ -65,6 +65,7 @@ def test_what_no_sample_shows_is_found_between_them():
     assert nearer_between(tower, leg, 1e-3) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("owner", list(BOUNDS))
 def test_what_is_proved_holds_at_every_place_and_what_is_not_does_not(owner):
     rng = np.random.default_rng(7)

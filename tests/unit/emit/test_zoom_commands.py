@@ -173,6 +173,7 @@ def test_pilot_2_zooms_while_it_stands_by_turns_of_zooming_and_waiting() -> None
     assert "films 12 s" in emission.notes[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("emitter", "drone"),
     [

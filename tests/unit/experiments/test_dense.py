@@ -10,6 +10,7 @@ import pytest
 from tests.experiments.dense import APARTS, moves
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("shape", "slower"), [("ellipsoid", 1.3), ("cylinder", 1.7)])
 def test_dense_pictures_follow_each_other_and_keep_apart(shape: str, slower: float) -> None:
     apart = APARTS[shape]

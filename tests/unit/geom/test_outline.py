@@ -180,6 +180,7 @@ def test_what_is_left_out_is_in_the_way_of_no_ray(size: float) -> None:
         assert (hits[0] == hits[1]).all()
 
 
+@pytest.mark.slow
 def test_what_is_not_near_is_in_the_way_of_no_ray() -> None:
     """Solids before, beside and behind outlines: most are left out, and what is covered is as with all."""
     random, near = np.random.default_rng(9), []

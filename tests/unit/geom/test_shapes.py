@@ -70,6 +70,7 @@ def test_the_outline_is_that_of_all_its_points(shape: TargetShape, look: tuple[f
     )
 
 
+@pytest.mark.slow
 @given(boxes | groups, looks)
 def test_margins_are_those_of_the_point_nearest_to_the_edge(
     shape: TargetShape, look: tuple[float, ...]
@@ -79,6 +80,7 @@ def test_margins_are_those_of_the_point_nearest_to_the_edge(
     assert frustum_margins(camera, offset, shape) == pytest.approx(brute, abs=1e-4)
 
 
+@pytest.mark.slow
 @given(boxes, looks)
 def test_the_contour_of_a_box_is_the_hull_of_its_eight_corners(
     shape: BoxShape, look: tuple[float, ...]
@@ -102,6 +104,7 @@ def test_from_inside_a_box_there_is_no_contour() -> None:
     assert np.isnan(inside).all()
 
 
+@pytest.mark.slow
 @given(boxes, st.lists(angles, min_size=3, max_size=3), looks)
 def test_a_box_that_turns_is_a_box_at_every_time(
     shape: BoxShape, yaws: list[float], look: tuple[float, ...]
@@ -132,6 +135,7 @@ def test_length_lies_along_the_course_where_the_depth_of_a_zone_does() -> None:
     assert (solid.bottom, solid.top) == (zone.bottom, zone.top)
 
 
+@pytest.mark.slow
 @given(boxes | cylinders, boxes | cylinders, offsets)
 def test_bodies_touch_where_no_direction_parts_them(
     a: BoxShape | CylinderShape, b: BoxShape | CylinderShape, offset: tuple[float, float, float]
@@ -146,6 +150,7 @@ def test_bodies_touch_where_no_direction_parts_them(
     assert bool(touch(b, a, (-x, -y, -z))) is (apart < 0)
 
 
+@pytest.mark.slow
 @given(boxes | cylinders, angles)
 def test_the_cylinder_about_a_body_holds_it(shape: BoxShape | CylinderShape, yaw: float) -> None:
     turned = surface(shape.facing((cos(yaw), sin(yaw))))

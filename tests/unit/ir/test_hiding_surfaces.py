@@ -73,6 +73,7 @@ def of_cloud(points: np.ndarray):
     return replace(made, meshes=(replace(made.meshes[0], spacing=half),))
 
 
+@pytest.mark.slow
 def test_a_scan_hides_what_the_faces_that_it_is_of_hide():
     beside = turned(house(6.0, 30.0, 9.0, 11.0), 0.0, (20.0, 0.0))
     eyes = np.column_stack([np.full(60, 60.0), np.linspace(-45.0, 45.0, 60), np.linspace(4.0, 30.0, 60)])
@@ -93,6 +94,7 @@ def test_a_scan_of_what_is_filmed_does_not_hide_it():
     assert not any(hides.any() for _, hides in hiders(made, (), "church", EYES, TIMES))
 
 
+@pytest.mark.slow
 def test_of_a_large_cloud_fewer_and_larger_discs_hide_as_much():
     beside = turned(house(6.0, 30.0, 9.0, 11.0), 0.0, (20.0, 0.0))
     points = scanned(beside, 0.1)

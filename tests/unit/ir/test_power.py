@@ -72,6 +72,7 @@ def test_what_climbing_adds_comes_back_on_the_way_down() -> None:
     assert joules > POWER.hover * 20.0  # Jensen: no flight from rest to rest takes less than hovering
 
 
+@pytest.mark.slow
 @given(arrays(np.float64, (3, 4, 3), elements=st.floats(-6.0, 6.0)))
 def test_the_bounds_hold_the_integral_between_them(ctrl: np.ndarray) -> None:
     found = integral_convex(Pieces(np.arange(3.0), np.arange(3.0) + 1.0, ctrl), hover_ratio, 1e-4)

@@ -24,6 +24,7 @@ def test_without_setpoints_all_stays_as_it_is() -> None:
     assert asked_at(FIRST, (), 7.0) is FIRST
 
 
+@pytest.mark.slow
 @given(times=times, sizes=st.lists(st.floats(0.02, 3.0), min_size=4, max_size=4))
 def test_it_is_as_asked_at_each_setpoint_goes_there_monotonously_and_then_stays(times, sizes) -> None:
     setpoints = [led(t, size=s) for t, s in zip(times, sizes, strict=False)]

@@ -79,6 +79,7 @@ def test_the_columns_of_focus_are_those_of_the_thin_lens() -> None:
         assert row["motion_blur_px"] == row["background_blur_px"] == ""
 
 
+@pytest.mark.slow
 def test_a_subject_is_soft_where_it_reaches_out_of_the_limits_and_the_fix_mends_it() -> None:
     made = compiled_text(text(f"{LENS}, aperture: f/1.4"))
     (told,) = (d for d in made.diagnostics if d.code == "V061")
@@ -100,6 +101,7 @@ def test_focus_on_another_target_softens_the_one_that_is_framed() -> None:
     assert soft(f"{LENS}, aperture: f/2.8", ", focus: tree") == ["V061"]
 
 
+@pytest.mark.slow
 def test_a_sensor_that_is_not_written_is_the_models_or_a_full_frame() -> None:
     # The same picture and f-number on a smaller sensor: more is sharp.
     assert plan("hfov: 30 deg, aperture: f/1.4").trajectory.keyframes.mission.drones[0].optics.sensor is None
@@ -114,6 +116,7 @@ def test_a_sensor_that_is_not_written_is_the_models_or_a_full_frame() -> None:
     assert small == pytest.approx(full / 3, rel=0.02)
 
 
+@pytest.mark.slow
 def test_motion_blur_is_how_far_the_picture_goes_in_one_exposure() -> None:
     moving = """\
 shotc: 1
@@ -197,6 +200,7 @@ def test_shutters_are_written_as_photographers_do(written: str, seconds: float) 
     assert mission.drones[0].optics.aperture == 5.6
 
 
+@pytest.mark.slow
 def test_a_lens_may_be_focused_on_a_distance():
     at = plan(f"{LENS}, aperture: f/2.8", ", focus: 60 m")
     assert {float(r["focus_m"]) for r in rows(at)} == {60.0}

@@ -40,6 +40,7 @@ def test_the_lean_is_that_of_roll_and_pitch_in_equation_4(a: np.ndarray, yaw: fl
     assert cos(float(lean(a))) == pytest.approx(cos(roll) * cos(pitch), abs=1e-9)
 
 
+@pytest.mark.slow
 @given(arrays(np.float64, (2, 4, 3), elements=st.floats(-9.0, 9.0)))
 def test_no_instant_leans_further_than_the_bound(ctrl: np.ndarray) -> None:
     pieces = Pieces(np.array([0.0, 1.0]), np.array([1.0, 2.0]), ctrl)

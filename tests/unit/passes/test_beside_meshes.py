@@ -81,6 +81,7 @@ def test_the_ground_of_a_scanned_scene_is_no_obstacle_to_a_home_on_it(tmp_path):
     assert told(tmp_path, text=text) == []
 
 
+@pytest.mark.slow
 def test_what_hangs_over_a_home_is_told(tmp_path):
     roof = quad((-3, -43, 2.5), (3, -43, 2.5), (3, -37, 2.5), (-3, -37, 2.5))
     (tmp_path / "shed.ply").write_bytes(ply(roof))

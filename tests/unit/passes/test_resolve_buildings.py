@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from shotc.diag.registry import has_errors
+from tests.support.few import examples
 from tests.support.scene_missions import corners, degrees, fault, feature, found, geojson, mesh, square
 
 WORLD = "buildings: {file: houses.geojson}"
@@ -205,7 +206,8 @@ _VALUES = st.recursive(
 )
 
 
-@settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@pytest.mark.slow
+@settings(max_examples=examples(30, 300), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_any_values_are_a_diagnostic_or_buildings(tmp_path, data):
     """A sound file, with one value anywhere in it replaced by another."""

@@ -63,6 +63,7 @@ def test_the_proposed_heading_looks_at_the_target() -> None:
     )
 
 
+@pytest.mark.slow
 def test_every_kind_of_a_moving_target_is_planned() -> None:
     text = mission(
         at(0, -50, 10),

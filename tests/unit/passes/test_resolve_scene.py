@@ -213,6 +213,7 @@ def test_a_survey_that_promises_more_than_it_holds_is_refused_at_once(tmp_path, 
     assert fault("scene: {file: cloud.laz, units: m}", tmp_path).code == "N009"
 
 
+@pytest.mark.slow
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     ending=st.sampled_from(ENDINGS),
@@ -227,6 +228,7 @@ def test_any_bytes_are_a_diagnostic_or_a_scene(tmp_path, ending, begin, data):
     assert bool(mission.meshes) != has_errors(faults)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     kind=st.sampled_from([*HOUSE, "laz"]),

@@ -186,6 +186,7 @@ def test_a_track_that_leads_through_a_rise_between_its_points_is_told_and_a_lift
     assert "G018" not in {d.code for d in faults(mended, folder)}
 
 
+@pytest.mark.slow
 def test_a_recording_is_looked_at_along_all_its_rows(folder):
     rows = [(t, -100 + t, -60 + 0.6 * t) for t in range(0, 250, 5)]
     for bury, codes in ((0.0, set()), (4.0, {"G018"})):

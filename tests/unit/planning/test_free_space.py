@@ -60,6 +60,7 @@ def test_support_agrees(solid, n):
     assert float(support(solid, n)) == pytest.approx(solid.support(tuple(n)), abs=1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(solids, points, points)
 def test_the_distance_of_a_segment_is_that_of_its_nearest_point(solid, a, b):

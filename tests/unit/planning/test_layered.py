@@ -27,6 +27,7 @@ def test_a_free_course_is_its_ideal():
     assert led_round(FreeSpace((), (), ()), (), (TIMES, STRAIGHT)).places is STRAIGHT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 0.7])
 def test_a_course_through_a_house_leads_round_it_and_comes_back(turn):
     made = turned(house(9.0, 8.0, 6.0, 9.0), turn, (0.0, 1.0))
@@ -62,6 +63,7 @@ def test_a_course_keeps_clear_of_what_moves_beside_a_house():
     assert distances(made, course).min() >= CLEARANCE
 
 
+@pytest.mark.slow
 def test_where_no_course_is_free_the_ideal_is_returned():
     hall = house(400.0, 400.0, 100.0, 120.0)
     assert led_round(space_of(hall), (), (TIMES, STRAIGHT)).places is STRAIGHT

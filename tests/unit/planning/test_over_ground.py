@@ -55,6 +55,7 @@ def test_what_a_point_breaks_is_named():
     assert SPACE.without(GROUND).terrain == (HIGH,)
 
 
+@pytest.mark.slow
 def test_what_is_proved_of_pieces_is_true_and_no_more_than_a_hair_too_careful():
     hulls = some_hulls(60)
     lack = shortfall(SPACE, hulls)

@@ -102,6 +102,7 @@ def test_a_smoothing_that_is_none_is_told(written: str, code: str, said: str) ->
     assert said in f"{found.message} {found.help}"
 
 
+@pytest.mark.slow
 def test_accelerations_of_a_shot_on_a_path_build_up_more_slowly() -> None:
     drone = clean(head() + PATH.replace("TIMING", "timing: auto").replace("HOW", "high")).mission.drones[0]
     legs = [
@@ -120,6 +121,7 @@ def test_accelerations_of_a_shot_on_a_path_build_up_more_slowly() -> None:
     assert times == sorted(times)
 
 
+@pytest.mark.slow
 def test_a_duration_goes_before_smoothing() -> None:
     mission = head() + PATH.replace("TIMING", "timing: {duration: SECONDS}").replace("HOW", "3 s")
     drone = clean(mission.replace("SECONDS", "40")).mission.drones[0]
@@ -133,6 +135,7 @@ def test_a_duration_goes_before_smoothing() -> None:
         assert (most <= drone.limits.jerk / 6 * 1.0001) == smooth
 
 
+@pytest.mark.slow
 def test_normal_smoothing_is_what_a_silent_mission_has() -> None:
     silent, normal = leg_of(framing("")), leg_of(framing("smoothing: normal, "))
     assert np.array_equal(silent.curve.ctrl, normal.curve.ctrl)

@@ -78,6 +78,7 @@ def weaving(rng, seconds, step=0.2):
     return times[:: round(step / 0.01)], places[:: round(step / 0.01), 0]
 
 
+@pytest.mark.long
 def test_who_weaves_is_foreseen_better_by_his_way_than_by_how_he_moves_now():
     """Three seconds ahead; and what is foreseen moves half as far from one plan to the next."""
     off, moves = {}, {}
@@ -133,6 +134,7 @@ def test_it_is_the_textbook_filter():
     assert found.covariance[0, :6, :6] == pytest.approx(covariance, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(st.permutations(range(6)))
 def test_the_order_of_arrival_does_not_matter(order):
     in_order, shuffled = tracker(), tracker()

@@ -19,6 +19,7 @@ def test_a_drone_comes_to_rest_where_it_is_asked_to_be():
     assert state.velocity == pytest.approx(STILL, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_in_a_steady_wind_the_integrator_takes_over_all_of_the_drag():
     vehicle, wind = Vehicle(), np.array([[6.0, -2.0, 0.0]])
     state = flown(vehicle, VehicleState.at_rest(STILL), VehicleSetpoint(STILL, STILL, STILL), wind, 60.0)
@@ -55,6 +56,7 @@ def test_no_more_is_asked_of_a_drone_than_its_tilt_gives():
     assert state.acceleration[0, 2] == pytest.approx(vehicle.climb)
 
 
+@pytest.mark.slow
 def test_a_drone_hovers_as_far_off_as_it_takes_its_own_place_to_be():
     error = np.array([[0.4, 0.0, -0.2]])
     asked = VehicleSetpoint(STILL, STILL, STILL)
@@ -62,6 +64,7 @@ def test_a_drone_hovers_as_far_off_as_it_takes_its_own_place_to_be():
     assert state.position == pytest.approx(-error, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_wind_faster_than_the_tilt_can_hold_blows_a_drone_away_and_leaves_numbers_finite():
     wind = np.array([[60.0, 0.0, 0.0]])
     state = flown(Vehicle(), VehicleState.at_rest(STILL), VehicleSetpoint(STILL, STILL, STILL), wind, 60.0)

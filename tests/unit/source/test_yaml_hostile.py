@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -45,6 +46,7 @@ def test_any_bytes(data: bytes) -> None:
     assert document.whole or document.faults
 
 
+@pytest.mark.slow
 @given(st.lists(st.sampled_from(TOKENS), max_size=40).map("".join))
 @example("a: !")
 @example("!<x")

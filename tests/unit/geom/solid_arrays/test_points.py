@@ -35,6 +35,7 @@ def test_signed_distances_are_those_of_one_point_at_a_time(solid: Solid) -> None
     assert signed_distance(solid, POINTS) == pytest.approx(exact, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_prism_that_is_not_convex_has_no_seam_within() -> None:
     # A star's parts are fans of triangles: on a diagonal, rounding may put a point between two of them.
     turns = np.arange(14) * pi / 7

@@ -34,6 +34,7 @@ def brute(points: Array, boards: Billboards, disc: float) -> Array:
     return out.reshape(-1, N, N)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("disc", [0.02, 0.3, 3.0])
 @pytest.mark.parametrize("facing", [True, False])
 def test_rays_are_stopped_by_the_points_that_they_pass(disc: float, facing: bool) -> None:

@@ -124,6 +124,7 @@ def test_what_is_no_triangles_is_refused(bad: np.ndarray):
         surface_of(bad)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(seeds, st.integers(1, 300))
 def test_nearest_points_are_those_of_all_triangles(seed: int, count: int):
@@ -153,6 +154,7 @@ def test_the_nearest_of_many_triangles_is_found_among_few(monkeypatch: pytest.Mo
     assert sum(asked) < 60 * len(points)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(seeds, st.integers(1, 60))
 @example(0, 1)

@@ -44,6 +44,7 @@ def solved(triangle: np.ndarray, eye: np.ndarray, way: np.ndarray) -> float:
     return share if s >= 0 and t >= 0 and s + t <= 1 and share > 0 else np.inf
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_a_ray_meets_the_triangle_that_brute_force_finds(seed):
     random = np.random.default_rng(seed)
@@ -59,6 +60,7 @@ def test_a_ray_meets_the_triangle_that_brute_force_finds(seed):
             assert found.triangle[f, i, j] == NOTHING
 
 
+@pytest.mark.slow
 def test_no_ray_leaves_a_closed_ball():
     surface = surface_of(sphere_mesh(10.0))
     boards = some_boards(np.random.default_rng(5), 30)

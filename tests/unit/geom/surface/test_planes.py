@@ -71,6 +71,7 @@ def test_a_piece_whose_points_keep_its_planes_keeps_the_clearance(seed: int, poi
         assert far.proven >= CLEARANCE - 1e-6
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(seeds, st.sampled_from([2, 6]))
 def test_a_gap_is_nearly_the_distance_and_never_more(seed: int, points: int):

@@ -47,6 +47,7 @@ def by_all_pairs(triangles: np.ndarray, boards: Billboards, n: int) -> np.ndarra
         return ((u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0) & (t < 1 - 1e-6)).any(axis=-1)
 
 
+@pytest.mark.slow
 @settings(max_examples=80)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 80))
 def test_the_same_rays_are_stopped_as_by_all_pairs(seed: int, count: int):

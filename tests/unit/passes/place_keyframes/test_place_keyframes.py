@@ -220,6 +220,7 @@ def test_a_gimbal_that_stops_short_of_the_set_is_told_as_the_cause_and_its_help_
     assert place_with(enough - 0.1)
 
 
+@pytest.mark.slow
 def test_a_generated_path_is_told_the_distance_to_keep_at_its_altitude() -> None:
     head = "shotc: 1\nmission: far\ntargets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}\n"
     head += "drones: {cam1: {home: [0, -90, 0]}}\nshots:\n"
@@ -233,6 +234,7 @@ def test_a_generated_path_is_told_the_distance_to_keep_at_its_altitude() -> None
     assert placed(head + shot.replace("RR", f"{enough - 0.2}"))[1] != []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "key"),
     [

@@ -11,10 +11,9 @@ from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
 from shotc.ir.drone import LensRange
 from shotc.ir.path import HFOV
-from shotc.passes.verify import judge
 from tests.support.front_passes import resolved
 from tests.support.records import replace
-from tests.support.tampered_plans import CONTEXT
+from tests.support.verdicts import verdict_on
 
 ZOOM = """\
 shotc: 1
@@ -69,7 +68,7 @@ def test_a_plan_that_zooms_too_fast_or_beyond_its_lens_is_refused() -> None:
     ):
         drones = (mission.drones[0]._replace(lens=lens),)
         other = replace(ir, keyframes=replace(ir.keyframes, mission=replace(mission, drones=drones)))
-        assert code in {d.code for d in judge(other, CONTEXT).diagnostics}
+        assert code in {d.code for d in verdict_on(other).diagnostics}
 
 
 def test_focal_lengths_count_on_the_sensor_or_on_a_frame_of_36_mm() -> None:

@@ -21,11 +21,8 @@ from shotc.passes.verify.report import rule_of
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 from tests.support.tampered_plans import (
-    CONTEXT,
     MISSION,
     PLAN,
-    claim,
-    codes,
     with_ctrl,
     with_drone,
     with_gimbal,
@@ -37,6 +34,7 @@ from tests.support.tampered_plans import (
     with_track,
     zone,
 )
+from tests.support.verdicts import CONTEXT, claim, codes, verdict_on
 
 
 def test_a_sound_plan_is_verified_with_every_claim() -> None:
@@ -55,7 +53,7 @@ def test_a_sound_plan_is_verified_with_every_claim() -> None:
 
 
 def test_every_constraint_has_a_registered_code() -> None:
-    for c in judge(PLAN, CONTEXT).certificate:
+    for c in verdict_on(PLAN).certificate:
         if c.hard:
             assert rule_of(c.constraint, MISSION).code in registry()
 
@@ -72,7 +70,7 @@ def test_known_values() -> None:
 
 def test_energy_is_that_of_the_samples_and_of_no_shot_more_than_of_the_flight() -> None:
     power = Power(2.0, 3e5, 4, 0.127, 0.5, 0.2)
-    found = [c for c in judge(with_drone(power=power), CONTEXT).certificate if c.constraint == "energy"]
+    found = [c for c in verdict_on(with_drone(power=power)).certificate if c.constraint == "energy"]
     (whole,), (shot,) = ([c for c in found if c.shot == name] for name in (None, "half"))
     t = np.linspace(0.0, 122.0, 122001)
     watts = drawn(power, *(CURVE.derivative(n)(t)[:, :3] for n in (1, 2)))
@@ -146,7 +144,7 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
 @pytest.mark.long
 @pytest.mark.parametrize(("tampered", "expected"), [t[1:] for t in TAMPERED], ids=[t[0] for t in TAMPERED])
 def test_tampering_is_found(tampered: TrajectoryIR, expected: set[str]) -> None:
-    verdict = judge(tampered, CONTEXT)
+    verdict = verdict_on(tampered)
     assert expected <= {d.code for d in verdict.diagnostics}
     assert Verify().run(tampered, CONTEXT).value is None
     for d in verdict.diagnostics:

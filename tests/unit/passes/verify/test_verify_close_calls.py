@@ -11,14 +11,10 @@ from shotc.ir.limits import Timing
 from shotc.ir.mission import Zone
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
-from shotc.passes.verify import judge
 from tests.support.records import replace
 from tests.support.tampered_plans import (
-    CONTEXT,
     MISSION,
     PLAN,
-    claim,
-    codes,
     shifted,
     with_gimbal,
     with_keyframe,
@@ -26,6 +22,7 @@ from tests.support.tampered_plans import (
     with_track,
     zone,
 )
+from tests.support.verdicts import claim, codes, verdict_on
 
 
 def test_a_spike_between_samples_is_caught() -> None:
@@ -96,7 +93,7 @@ def other_drone(ir: TrajectoryIR, offset: tuple[float, float, float]) -> Traject
 
 @pytest.mark.parametrize(("apart", "broken"), [(3.01, False), (2.99, True)])
 def test_separation_of_two_drones(apart: float, broken: bool) -> None:
-    verdict = judge(other_drone(PLAN, (0.0, 0.0, 0.0 + apart)), CONTEXT)
+    verdict = verdict_on(other_drone(PLAN, (0.0, 0.0, 0.0 + apart)))
     found = next(c for c in verdict.certificate if c.constraint == "separation from cam2")
     assert found.worst == pytest.approx(apart, abs=1e-4)
     assert ("V022" in {d.code for d in verdict.diagnostics}) is broken

@@ -13,16 +13,16 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.limits import Timing
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
 from shotc.passes.verify.fleets.space import nearest
 from tests.support.records import replace
-from tests.support.show_plans import CONTEXT, display, fleet, mission, show
+from tests.support.show_plans import display, fleet, mission, show
+from tests.support.verdicts import verdict_on
 
 SHOW = show()
 
 
 def claim(ir: TrajectoryIR, constraint: str) -> Claim:
-    return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)
+    return next(c for c in verdict_on(ir).certificate if c.constraint == constraint)
 
 
 def showing(*shown: tuple[int, float, float]) -> TrajectoryIR:

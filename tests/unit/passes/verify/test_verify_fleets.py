@@ -22,21 +22,21 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import stricter
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
 from shotc.passes.verify.report import rule_of
 from tests.support.records import replace
-from tests.support.show_plans import CONTEXT, PADS, RISE, STEP, display, fleet, flight, mission, show
+from tests.support.show_plans import PADS, RISE, STEP, display, fleet, flight, mission, show
+from tests.support.verdicts import verdict_on
 
 SHOW = show()
 FIELD = Prism(((-20.0, -20.0), (40.0, -20.0), (40.0, 60.0), (-20.0, 60.0)), 5.0, 50.0)
 
 
 def claims(ir: TrajectoryIR) -> dict[str, Claim]:
-    return {c.constraint: c for c in judge(ir, CONTEXT).certificate}
+    return {c.constraint: c for c in verdict_on(ir).certificate}
 
 
 def codes(ir: TrajectoryIR) -> list[str]:
-    return sorted({d.code for d in judge(ir, CONTEXT).diagnostics})
+    return sorted({d.code for d in verdict_on(ir).diagnostics})
 
 
 def with_flight(**changes: object) -> TrajectoryIR:
@@ -78,7 +78,7 @@ def zone(keep: str, solid: object) -> MissionIR:
 
 
 def test_a_sound_show_is_verified() -> None:
-    verdict = judge(SHOW, CONTEXT)
+    verdict = verdict_on(SHOW)
     assert verdict.diagnostics == ()
     assert all(c.holds and c.hard and c.subject == "swarm" for c in verdict.certificate)
     assert {c.constraint for c in verdict.certificate} == {
@@ -251,14 +251,14 @@ def test_separation_is_stretched_and_between_fleets_the_stricter_counts() -> Non
     assert claims(ir)["separation"].worst == pytest.approx(3.0 * 1.15 / 2.15, rel=1e-5)
     near = show(mission(fleets=(fleet(((0.0, 0.0, 0.0), (0.0, 0.0, 2.0))),)))
     assert codes(near) == ["V022"]
-    (told,) = judge(near, CONTEXT).diagnostics
+    (told,) = verdict_on(near).diagnostics
     assert "swarm-1 and swarm-2 of swarm" in told.message
     assert told.help is not None
     assert "ask for 0.080 m less `separation`" in told.help
     other = fleet(tuple((x + 2.0, y, z) for x, y, z in PADS), "crowd")
     wide = other._replace(apart=other.apart._replace(shape="cylinder", horizontal=1.5))
     both = mission(fleets=(fleet(), wide), displays=(display(), display("ring", "crowd", 1)))
-    found = next(c for c in judge(show(both), CONTEXT).certificate if c.constraint == "separation from crowd")
+    found = next(c for c in verdict_on(show(both)).certificate if c.constraint == "separation from crowd")
     assert (found.subject, found.limit) == ("swarm", pytest.approx(1.65))
     assert found.worst == pytest.approx(2.0, abs=1e-5)
     assert [name.rstrip("1234") for name in found.drones] == ["swarm-", "crowd-"]
@@ -345,14 +345,14 @@ BROKEN: list[tuple[str, TrajectoryIR, str]] = [
 
 @pytest.mark.parametrize(("ir", "code"), [b[1:] for b in BROKEN], ids=[b[0] for b in BROKEN])
 def test_what_is_broken_is_found(ir: TrajectoryIR, code: str) -> None:
-    verdict = judge(ir, CONTEXT)
+    verdict = verdict_on(ir)
     assert code in {d.code for d in verdict.diagnostics}
     assert all((d.code in registry() and d.labels) or d.code == "V014" for d in verdict.diagnostics)
 
 
 def test_more_time_is_advised_where_a_display_moves_too_fast() -> None:
     ir = with_coef(lambda c: c.__setitem__((slice(None), slice(13, 17), 2), 60.0))
-    told = next(d for d in judge(ir, CONTEXT).diagnostics if "climb" in d.message)
+    told = next(d for d in verdict_on(ir).diagnostics if "climb" in d.message)
     assert told.help is not None
     assert told.help.startswith("give the moves of shot `globe` ")
     assert "raise `limits.climb`" in told.help
@@ -363,12 +363,12 @@ def test_times_that_are_met() -> None:
 
 
 def test_a_fleet_that_is_not_there_has_no_sound_structure() -> None:
-    (told,) = judge(with_flight(fleet="crowd"), CONTEXT).diagnostics
+    (told,) = verdict_on(with_flight(fleet="crowd")).diagnostics
     assert "crowd" in told.message
 
 
 def test_the_worst_place_and_time_are_the_drone_s() -> None:
-    for c in judge(SHOW, CONTEXT).certificate:
+    for c in verdict_on(SHOW).certificate:
         if c.time is not None and len(c.drones) == 1 and c.position is not None:
             track: FleetTrajectory = SHOW.fleets[0]
             drone = int(c.drones[0].removeprefix("swarm-")) - 1

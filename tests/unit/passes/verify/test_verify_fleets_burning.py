@@ -17,12 +17,12 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.show import PyroCue
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
 from tests.support.few import examples
-from tests.support.show_plans import CONTEXT, display, flight, mission
+from tests.support.show_plans import display, flight, mission
 from tests.support.standing_worlds import SIDE, STEP, from_box, height_over, house, ridge, terrain
 from tests.support.surfaces import Grid, grid
 from tests.support.terrain_missions import relief
+from tests.support.verdicts import verdict_on
 
 GROUND = "pyro 1 fountain from the ground"
 BUILDINGS = "pyro 1 fountain from the buildings"
@@ -43,7 +43,7 @@ def burning(clear: float, shape: Grid | None = None, *meshes: ObstacleMesh) -> M
 
 def judged(asked: MissionIR) -> tuple[dict[str, Claim], list[Diagnostic]]:
     ir = TrajectoryIR(KeyframeIR(asked, ()), (), (), (), (flight(asked.fleets[0]),))
-    verdict = judge(ir, CONTEXT)
+    verdict = verdict_on(ir)
     told = [d for d in verdict.diagnostics if d.code == "V059" and "from drones" not in d.message]
     return {c.constraint: c for c in verdict.certificate}, told
 
@@ -123,7 +123,8 @@ def test_half_the_spacing_of_a_cloud_is_taken_off() -> None:
     assert claims["pyro 1 fountain from the scene"].worst == pytest.approx(2.6, abs=1e-5)
 
 
-@settings(max_examples=examples(10, 300), deadline=None)
+@pytest.mark.slow
+@settings(max_examples=examples(4, 300), deadline=None)
 @given(st.integers(0, 2**31), st.floats(2.0, 30.0))
 def test_no_sample_is_nearer_than_what_is_proved(seed: int, height: float) -> None:
     shape = relief(seed % 1000, height)

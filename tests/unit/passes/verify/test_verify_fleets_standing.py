@@ -15,12 +15,12 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
 from tests.support.few import examples
-from tests.support.show_plans import CONTEXT, RISE, flight, mission
+from tests.support.show_plans import RISE, flight, mission
 from tests.support.standing_worlds import from_box, height_over, house, over, ridge, terrain
 from tests.support.surfaces import Grid
 from tests.support.terrain_missions import relief
+from tests.support.verdicts import verdict_on
 
 RADIUS = 0.3
 FREE = (8.0, 38.0)
@@ -28,7 +28,7 @@ FREE = (8.0, 38.0)
 
 def claims(asked: MissionIR, flown: FleetTrajectory) -> dict[str, Claim]:
     ir = TrajectoryIR(KeyframeIR(asked, ()), (), (), (), (flown,))
-    return {c.constraint: c for c in judge(ir, CONTEXT).certificate}
+    return {c.constraint: c for c in verdict_on(ir).certificate}
 
 
 def free(flown: FleetTrajectory, count: int = 4000) -> Array:
@@ -73,6 +73,7 @@ def test_a_flight_that_leaves_the_terrain_holds_nothing() -> None:
     assert not found.holds
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(12, 300), deadline=None)
 @given(st.integers(0, 2**31), st.floats(2.0, 30.0))
 def test_nothing_that_is_sampled_is_beyond_what_is_proved(seed: int, height: float) -> None:

@@ -14,28 +14,19 @@ from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
 from shotc.ir.promise import Promise
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.verify import Verify, judge
+from shotc.passes.verify import Verify
 from shotc.passes.verify.visible import longest
 from tests.support.records import replace
 from tests.support.scenes import house, turned
-from tests.support.tampered_plans import (
-    CONTEXT,
-    MISSION,
-    PLAN,
-    claim,
-    codes,
-    shifted,
-    with_ctrl,
-    with_mission,
-    with_track,
-)
+from tests.support.tampered_plans import MISSION, PLAN, shifted, with_ctrl, with_mission, with_track
+from tests.support.verdicts import CONTEXT, claim, codes, verdict_on
 
 
 def test_framing_promises() -> None:
     aside = shifted(CAM_YAW, radians(32))
     assert {"V019", "V020"} <= set(codes(aside))
     away = shifted(CAM_YAW, pi * 0.9)
-    found = {d.code: d for d in judge(away, CONTEXT).diagnostics}
+    found = {d.code: d for d in verdict_on(away).diagnostics}
     assert "behind the camera" in found["V020"].message
 
 
@@ -83,6 +74,7 @@ def test_without_promises_losses_are_warnings() -> None:
     assert outcome.diagnostics[0].message.startswith("tower is not whole in frame in ")
 
 
+@pytest.mark.slow
 def test_a_hidden_target_is_a_warning() -> None:
     screen = Zone("screen", "out", box((30.0, 0.0, 10), (1, 4, 20), 0), ("world", "zones", "screen"))
     ir = with_mission(zones=(*MISSION.zones, screen))
@@ -113,6 +105,7 @@ def test_a_target_within_a_zone_is_hidden_in_every_frame_and_that_is_an_error_un
     assert codes(with_mission(zones=(*MISSION.zones, hall), shots=(meant,))) == []
 
 
+@pytest.mark.slow
 def test_what_hides_a_target_is_named_by_its_part() -> None:
     walls = [turned(house(1, 4, 19, 20), 0.0, (x, y)) for x, y in ((30.0, 0.0), (30.0, 400.0))]
     numbers = np.repeat([0, 1], [len(wall) for wall in walls])
@@ -174,7 +167,7 @@ def test_a_promise_of_what_is_visible_holds_for_every_frame_and_is_told_with_who
     ir = screened(-1.0, Promise(visible=0.9))
     found = claim(ir, "tower visible")
     assert (found.hard, found.holds, found.method, found.limit) == (True, False, "sampled", 0.9)
-    (told,) = [d for d in judge(ir, CONTEXT).diagnostics if d.code == "V028"]
+    (told,) = [d for d in verdict_on(ir).diagnostics if d.code == "V028"]
     least = 100 * found.worst
     assert told.message == (
         f"{least:.4g} % of the outline of tower is free in a frame of shot `half`, 90 % is promised at least"
@@ -200,7 +193,7 @@ def before_the_first_frame(promise: Promise) -> TrajectoryIR:
 
 def test_a_reveal_is_held_at_its_ends_and_being_hidden_meanwhile_is_meant() -> None:
     ir = before_the_first_frame(Promise(reveal=(0.0, 1.0)))
-    made = {c.constraint: c for c in judge(ir, CONTEXT).certificate if c.shot == "half"}
+    made = {c.constraint: c for c in verdict_on(ir).certificate if c.shot == "half"}
     first, last = made["tower visible at first"], made["tower visible at last"]
     assert (first.worst, last.worst, first.upper, last.upper) == (0.0, 1.0, True, False)
     assert [first.hard, last.hard] == [True, True]
@@ -208,24 +201,25 @@ def test_a_reveal_is_held_at_its_ends_and_being_hidden_meanwhile_is_meant() -> N
     assert not {"V029", "V031", "V050"} & set(codes(ir))
 
 
+@pytest.mark.slow
 def test_a_broken_reveal_is_told_at_the_end_that_breaks_it_with_one_that_is_kept() -> None:
     told = [d for d in promising(Promise(reveal=(0.0, 1.0))) if d.code == "V029"]
     assert [d.message for d in told] == [
         "100 % of the outline of tower is free in the first frame of shot `half`, 0 % is promised at most"
     ]
     assert "promise" not in told[0].help  # nothing is revealed that is free at first
-    lost = judge(before_the_first_frame(Promise(reveal=(1.0, 0.2))), CONTEXT).diagnostics
+    lost = verdict_on(before_the_first_frame(Promise(reveal=(1.0, 0.2)))).diagnostics
     assert [d.message.split(" is free in ")[1].split(" frame")[0] for d in lost if d.code == "V029"] == [
         "the first",
         "the last",
     ]
-    half = judge(screened(-1.0, Promise(reveal=(0.5, 0.9))), CONTEXT).diagnostics
+    half = verdict_on(screened(-1.0, Promise(reveal=(0.5, 0.9)))).diagnostics
     assert all("reveal: {" in d.help or "begin or end" in d.help for d in half if d.code == "V029")
 
 
 def promising(promise: Promise, ir: TrajectoryIR = PLAN) -> list[Diagnostic]:
     shot = replace(MISSION.shots[0], promise=promise)
-    return list(judge(with_mission(ir, shots=(shot,)), CONTEXT).diagnostics)
+    return list(verdict_on(with_mission(ir, shots=(shot,))).diagnostics)
 
 
 def test_a_broken_size_is_told_by_what_is_seen_and_a_range_to_paste() -> None:
@@ -291,6 +285,7 @@ def test_a_size_that_is_not_known_is_the_worst_of_either_kind() -> None:
     assert claim(away, "tower size largest").worst == np.inf
 
 
+@pytest.mark.slow
 def test_nothing_is_asked_of_a_target_out_of_its_shot() -> None:
     (span,) = PLAN.drones[0].framing
     longer = replace(span, start=span.start - 10.0, end=span.end + 10.0)

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from shotc.geom.fleet_spline import places
-from shotc.passes.verify import judge
 from tests.experiments.planted import FLEET, cruise, show
 from tests.support import show_plans
 from tests.support.flight_files import verified
 from tests.support.grouped_plans import grouped
-from tests.support.show_plans import CONTEXT
+from tests.support.verdicts import verdict_on
 
 PARTS = show_plans.show(grouped())
 BETWEEN = "separation from swarm/middle"
@@ -21,7 +20,7 @@ NAMES = {("swarm-1", "swarm-2"), ("swarm-4", "swarm-3")}
 
 
 def test_groups_that_stay_apart_are_proved_apart() -> None:
-    (apart,) = [c for c in judge(PARTS, CONTEXT).certificate if c.constraint == BETWEEN]
+    (apart,) = [c for c in verdict_on(PARTS).certificate if c.constraint == BETWEEN]
     assert (apart.holds, apart.subject, apart.method) == (True, "swarm", "bounded")
     assert apart.worst == pytest.approx(4.0, abs=1e-5)
     assert apart.drones in NAMES
@@ -32,7 +31,7 @@ def test_a_meeting_of_two_groups_is_found() -> None:
     coef = middle.coef.copy()
     coef[0, 9:11, 0] -= 3.5  # drone 2 bends towards drone 1 for two control points between stops
     planted = replace(PARTS, fleets=(PARTS.fleets[0], replace(middle, coef=coef)))
-    (apart,) = [c for c in judge(planted, CONTEXT).certificate if c.constraint == BETWEEN]
+    (apart,) = [c for c in verdict_on(planted).certificate if c.constraint == BETWEEN]
     times = np.linspace(0.0, float(middle.breaks[-1]), 4601)
     one, other = (places(track.breaks, track.coef, times) for track in planted.fleets)
     away = (one[:, None] - other[None]) * [1.0, 1.0, 1.15 / 2.15]

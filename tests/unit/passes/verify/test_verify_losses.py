@@ -11,14 +11,11 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, PathDeviation
 from shotc.ir.promise import Promise
-from shotc.passes.verify import judge
 from shotc.passes.verify.loss import at_limit
 from tests.support.records import replace
 from tests.support.tampered_plans import (
-    CONTEXT,
     MISSION,
     PLAN,
-    codes,
     shifted,
     with_gimbal,
     with_mission,
@@ -26,6 +23,7 @@ from tests.support.tampered_plans import (
     with_track,
     zone,
 )
+from tests.support.verdicts import codes, verdict_on
 
 TRACK = PLAN.drones[0]
 FILMED = 40.0
@@ -33,7 +31,7 @@ FILMED = 40.0
 
 
 def told(ir):
-    (found,) = [d for d in judge(ir, CONTEXT).diagnostics if d.code == "V032"]
+    (found,) = [d for d in verdict_on(ir).diagnostics if d.code == "V032"]
     return found
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.passes.verify import Verify, judge
+from shotc.passes.verify import Verify
 from tests.support.mesh_spaces import with_meshes
 from tests.support.scenes import fine, house, turned
 from tests.support.surfaces import distances
-from tests.support.tampered_plans import CONTEXT, MISSION, PLAN, with_mission
+from tests.support.tampered_plans import MISSION, PLAN, with_mission
+from tests.support.verdicts import CONTEXT, verdict_on
 
 TRACK, DRONE = PLAN.drones[0], MISSION.drones[0]
 HOUSE = fine(house(9.0, 8.0, 6.0, 9.0), 1)
@@ -28,9 +29,10 @@ def beside(at, *, more: float = 0.0):
 
 
 def claims(ir) -> dict:
-    return {c.constraint: c for c in judge(ir, CONTEXT).certificate if NAME in c.constraint}
+    return {c.constraint: c for c in verdict_on(ir).certificate if NAME in c.constraint}
 
 
+@pytest.mark.slow
 def test_the_distance_that_is_claimed_is_that_of_the_body_as_it_flies():
     x, y, z = places("shot").mean(axis=0)
     made, ir = beside((x, y), more=z - 20.0)

@@ -9,19 +9,10 @@ from hypothesis import strategies as st
 from shotc.ir.measures import enough, measure
 from shotc.ir.origin import OriginMap
 from shotc.ir.path import CAM_PITCH
-from shotc.passes.verify import judge
 from shotc.source.file import Span
 from tests.support.records import replace
-from tests.support.tampered_plans import (
-    CONTEXT,
-    PLAN,
-    claim,
-    codes,
-    with_gimbal,
-    with_limits,
-    with_mission,
-    with_track,
-)
+from tests.support.tampered_plans import PLAN, with_gimbal, with_limits, with_mission, with_track
+from tests.support.verdicts import claim, codes, verdict_on
 
 SPEED = claim(PLAN, "speed")
 
@@ -34,7 +25,7 @@ def test_a_diagnostic_points_at_the_limit_and_the_shot() -> None:
         {("drones", "cam1", "limits", "speed"): limit},
     )
     ir = with_mission(with_limits(speed=7.0), origins=origins)
-    (found,) = judge(ir, CONTEXT).diagnostics
+    (found,) = verdict_on(ir).diagnostics
     assert [label.span for label in found.labels] == [limit, shot]
     assert "7.854 m/s" in found.message
     assert "7 m/s" in found.message
@@ -46,7 +37,7 @@ def test_a_diagnostic_points_at_the_limit_and_the_shot() -> None:
 
 def test_missing_values_are_told_without_numbers() -> None:
     ir = with_track(keyframes=())
-    found = [d for d in judge(ir, CONTEXT).diagnostics if d.code == "V016"]
+    found = [d for d in verdict_on(ir).diagnostics if d.code == "V016"]
     assert found
     assert all("inf" not in d.message for d in found)
     assert claim(ir, "distance from keyframes").worst == inf
@@ -61,7 +52,7 @@ def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str
 
 
 def test_the_help_makes_the_plan_hold() -> None:
-    (found,) = judge(with_limits(speed=7.0), CONTEXT).diagnostics
+    (found,) = verdict_on(with_limits(speed=7.0)).diagnostics
     assert "raise `limits.speed` to 7.855 m/s" in found.help
     assert codes(with_limits(speed=7.855)) == []
     assert measure(0.0, "m") == "0 m"
@@ -71,7 +62,7 @@ def test_the_help_makes_the_plan_hold() -> None:
 
 def test_help_against_wind_speaks_of_the_written_limit() -> None:
     ir = with_mission(with_limits(speed=7.0), wind=2.25)
-    (found,) = judge(ir, CONTEXT).diagnostics
+    (found,) = verdict_on(ir).diagnostics
     assert "raise `limits.speed` to 10.11 m/s (2.25 m/s of wind are taken off)" in found.help
     assert "the limit is the drone's 9.25 m/s less 2.25 m/s of wind" in found.notes
     assert codes(with_mission(with_limits(speed=10.11 - 2.25), wind=2.25)) == []
@@ -79,5 +70,5 @@ def test_help_against_wind_speaks_of_the_written_limit() -> None:
 
 def test_a_gimbal_range_is_widened_at_its_end() -> None:
     lowest = float(PLAN.drones[0].curve.ctrl[..., CAM_PITCH].min())
-    (found,) = judge(with_gimbal(pitch=(lowest + 0.01, radians(30))), CONTEXT).diagnostics
+    (found,) = verdict_on(with_gimbal(pitch=(lowest + 0.01, radians(30)))).diagnostics
     assert found.help.startswith("lower the first value of `gimbal.pitch` to -")

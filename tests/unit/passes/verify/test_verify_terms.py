@@ -13,14 +13,10 @@ from shotc.ir.limits import Timing
 from shotc.ir.phases import Phase
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify import judge
 from tests.support.records import replace
 from tests.support.tampered_plans import (
-    CONTEXT,
     MISSION,
     PLAN,
-    claim,
-    codes,
     with_ctrl,
     with_keyframe,
     with_mission,
@@ -28,12 +24,13 @@ from tests.support.tampered_plans import (
     with_track,
     zone,
 )
+from tests.support.verdicts import claim, codes, verdict_on
 
 pytestmark = pytest.mark.slow
 
 
 def found(ir: TrajectoryIR, constraint: str) -> Claim:
-    return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)
+    return next(c for c in verdict_on(ir).certificate if c.constraint == constraint)
 
 
 @pytest.mark.parametrize("end", [0, -1])

@@ -14,10 +14,10 @@ from shotc.geom.track_array import places, rate_seen_from, seen_from
 from shotc.ir.phases import Phase
 from shotc.ir.target import Target
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.verify import judge
 from shotc.passes.verify.shape import JOINTS, MOST_REPORTED, gaps
 from shotc.planfile.sanity import inconsistencies
-from tests.support.tampered_plans import CONTEXT, PLAN, claim, codes, with_mission, with_track, zone
+from tests.support.tampered_plans import PLAN, with_mission, with_track, zone
+from tests.support.verdicts import claim, codes, verdict_on
 
 TRACK = PLAN.drones[0]
 CURVE = TRACK.curve
@@ -39,7 +39,7 @@ def test_a_wall_cannot_be_flown_through_between_phases_of_no_length() -> None:
     phases = (*TRACK.phases[:2], before, *inside, after, *TRACK.phases[3:])
     wall = zone("out", Cylinder((40.0, 0.0), 1e-3, 0.0, 30.0))
     walled = with_mission(with_track(phases=phases), zones=wall)
-    faults = [d for d in judge(walled, CONTEXT).diagnostics if d.code == "V014"]
+    faults = [d for d in verdict_on(walled).diagnostics if d.code == "V014"]
     assert "open" in faults[0].message
     assert len(faults) == MOST_REPORTED + 1  # and not one for each of them
 

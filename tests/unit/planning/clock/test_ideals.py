@@ -44,6 +44,7 @@ CASES = [(shot, target) for shot in SHOTS for target in ("turns", "rests", "face
 CASES += [(shot, "stands") for shot in SHOTS if shot.startswith("kind: framing")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("shot", "target"), CASES)
 def test_many_places_are_those_of_each_time(shot: str, target: str, tmp_path: Path) -> None:
     (tmp_path / "faces.csv").write_text(FACES)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -48,6 +49,7 @@ def hulls(random: np.random.Generator) -> Array:
     return (line + random.uniform(-0.3, 0.3, line.shape)).reshape(PIECES, 6, 3)
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_a_shortfall_is_the_worst_of_all_motions(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -59,6 +61,7 @@ def test_a_shortfall_is_the_worst_of_all_motions(seed: int) -> None:
     assert np.allclose(shortfalls(moving, way), np.max(each, axis=0), atol=CLOSE_SHARE * 100.0)
 
 
+@pytest.mark.slow
 @given(seeds, st.floats(-5.0, 5.0))
 def test_a_shortfall_is_told_from_the_least_that_is_asked_on(seed: int, least: float) -> None:
     random = np.random.default_rng(seed)
@@ -68,6 +71,7 @@ def test_a_shortfall_is_told_from_the_least_that_is_asked_on(seed: int, least: f
     assert (found >= least).all()
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_every_piece_within_reach_has_its_plane(seed: int) -> None:
     random = np.random.default_rng(seed)

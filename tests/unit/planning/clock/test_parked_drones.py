@@ -13,12 +13,12 @@ from shotc.emit.waypoints.clearance import keep_outs
 from shotc.ir.drone import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.passes.verify import judge
 from shotc.planning.clock.visibility import visibility_of
 from shotc.planning.obstacles import flight_space, pad_space
 from tests.support import show_plans
 from tests.support.records import replace
-from tests.support.tampered_plans import CONTEXT, MISSION, PLAN, with_mission
+from tests.support.tampered_plans import MISSION, PLAN, with_mission
+from tests.support.verdicts import verdict_on
 
 HEAD = """\
 shotc: 1
@@ -54,7 +54,7 @@ def with_spare(home: tuple[float, float, float], **rules: object) -> TrajectoryI
 
 
 def found(ir: TrajectoryIR, constraint: str) -> Claim:
-    return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)
+    return next(c for c in verdict_on(ir).certificate if c.constraint == constraint)
 
 
 @pytest.mark.parametrize(("out", "broken"), [(8.001, False), (7.999, True)])
@@ -65,30 +65,31 @@ def test_separation_from_a_drone_that_does_not_fly(out: float, broken: bool) -> 
     assert claim.worst == pytest.approx(out, abs=1e-4)
     assert claim.time == pytest.approx(37.0, abs=0.1)
     assert (claim.method, claim.hard, claim.holds) == ("bounded", True, not broken)
-    assert ("V022" in {d.code for d in judge(ir, CONTEXT).diagnostics}) is broken
+    assert ("V022" in {d.code for d in verdict_on(ir).diagnostics}) is broken
 
 
 def test_two_drones_that_do_not_fly_are_no_matter_of_the_plan() -> None:
     one = with_spare((70.0, 0.0, 0.0))
     third = replace(one.keyframes.mission.drones[1], name="cam3", path=("drones", "cam3"))
     ir = with_mission(one, drones=(*one.keyframes.mission.drones, third))
-    names = [c.constraint for c in judge(ir, CONTEXT).certificate if c.constraint.startswith("separation")]
+    names = [c.constraint for c in verdict_on(ir).certificate if c.constraint.startswith("separation")]
     assert names == ["separation from cam2", "separation from cam3"]
 
 
 def test_a_parked_drone_is_in_a_picture_and_is_said_to_be_on_its_pad() -> None:
     ir = with_spare((-10.0, 0.0, 20.0), visibility="require")
-    fault = next(d for d in judge(ir, CONTEXT).diagnostics if d.code == "V025")
+    fault = next(d for d in verdict_on(ir).diagnostics if d.code == "V025")
     assert "cam2 stands on its pad all the time" in " ".join(fault.notes)
     assert "move the home of `cam2`" in fault.help
 
 
+@pytest.mark.slow
 def test_a_parked_drone_hides_a_target_for_the_proof_and_for_the_table() -> None:
     # On the line from the orbit's middle to the centre of the tower, well before the tower.
     ir = with_spare((36.0, 0.0, 20.0 - 8.0 * 0.1), separation=0.1)
     ir = with_mission(ir, drones=(MISSION.drones[0], replace(ir.keyframes.mission.drones[1], radius=1.0)))
     assert found(ir, "tower visible").worst < 1.0
-    assert any("drone `cam2` hides up to" in n for d in judge(ir, CONTEXT).diagnostics for n in d.notes)
+    assert any("drone `cam2` hides up to" in n for d in verdict_on(ir).diagnostics for n in d.notes)
     tables = {a.name: a.data.decode() for a in CsvTable().emit(VerifiedIR(ir, ())).artifacts}
     header, *rows = tables["framing.csv"].splitlines()
     column = header.split(",").index("occluded")
@@ -184,7 +185,7 @@ def test_fleets_keep_clear_of_parked_drones(aside: float, broken: bool) -> None:
     assert claim.worst == pytest.approx(aside, abs=1e-4)
     assert claim.drones == ("swarm-1",)
     assert claim.holds is not broken
-    assert ("V022" in {d.code for d in judge(ir, CONTEXT).diagnostics}) is broken
+    assert ("V022" in {d.code for d in verdict_on(ir).diagnostics}) is broken
 
 
 @pytest.mark.parametrize(("aside", "broken"), [(3.1, False), (2.9, True)])
@@ -205,7 +206,7 @@ def test_fleets_and_drones_keep_clear_of_the_pads_of_a_fleet_that_shows_nothing(
     claim = found(film, "separation from idle")
     assert claim.worst == pytest.approx(aside, abs=1e-4)
     assert claim.holds is not broken
-    assert ("V022" in {d.code for d in judge(film, CONTEXT).diagnostics}) is broken
+    assert ("V022" in {d.code for d in verdict_on(film).diagnostics}) is broken
 
 
 def test_a_show_plans_beside_a_fleet_that_shows_nothing() -> None:

@@ -135,6 +135,7 @@ def test_several_subjects_are_filmed_from_nearer_to_the_place(refiner: str) -> N
     assert far[1] < far[0] - 0.5
 
 
+@pytest.mark.slow
 def test_what_is_not_had_of_picture_and_place_is_told() -> None:
     (found,) = placed(text("{target: runner, frame: center, size: 0.7}"))[1]
     assert found.code == "M034"

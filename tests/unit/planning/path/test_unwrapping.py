@@ -21,6 +21,7 @@ def known(yaws, *, groups=None, turns=None, rests=()) -> list[Known]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @settings(max_examples=20, deadline=None)
 @given(yaws=st.lists(st.floats(-pi, pi), min_size=2, max_size=8))

@@ -39,6 +39,7 @@ def test_a_velocity_slowed_by_what_it_uses_is_at_the_limit_of_airspeed(
         assert np.hypot(*(velocity / used - wind)) == pytest.approx(CEILING.speed, rel=1e-6)
 
 
+@pytest.mark.slow
 @given(VELOCITY, VELOCITY, WIND)
 def test_between_two_velocities_no_more_is_used_than_at_them(
     a: np.ndarray, b: np.ndarray, wind: tuple[float, float]
@@ -47,6 +48,7 @@ def test_between_two_velocities_no_more_is_used_than_at_them(
     assert middle <= 0.5 * (speed_used(a, wind) + speed_used(b, wind)) + 1e-9
 
 
+@pytest.mark.slow
 @given(VELOCITY, WIND, st.floats(0.3, 1.0))
 def test_a_pace_in_wind_is_within_the_limits(
     velocity: np.ndarray, wind: tuple[float, float], pace: float

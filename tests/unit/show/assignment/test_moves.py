@@ -44,6 +44,7 @@ def test_the_way_is_straight_where_that_is_proved_and_nothing_else_is_asked(
     assert not mover.faults
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("step", "arc"), [(1.5, True), (3.05, False)])
 def test_cylinders_take_arcs_where_a_pair_asks_for_them(step: float, arc: bool) -> None:
     """A sheet that stands up: neighbours of a row come to be above each other."""

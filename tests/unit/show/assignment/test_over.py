@@ -75,6 +75,7 @@ def keeps_limits(ends: tuple[Array, Array], move: Motion) -> bool:
     return all(within)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("height", [45.0, 70.0])
 def test_over_a_ridge_of_known_height_the_fleet_rises_by_what_it_lacks_and_little_more(height: float) -> None:
     shape = ridge(height)
@@ -178,6 +179,7 @@ def test_what_the_obstacles_require_is_looked_up_once_for_all_heights_that_are_t
     assert looked_up == [False]
 
 
+@pytest.mark.slow
 def test_over_terrain_the_greatest_height_counts_from_the_ground() -> None:
     shape, rules = ridge(70.0), world()[0].rules._replace(max_height=60.0)
     mission, swarm = world(terrain=terrain(shape), rules=rules)
@@ -189,6 +191,7 @@ def test_over_terrain_the_greatest_height_counts_from_the_ground() -> None:
     assert height_over(shape, at).max() <= 60.0 + 1e-6
 
 
+@pytest.mark.slow
 def test_a_wall_above_what_the_mission_allows_is_refused_with_the_height_that_does() -> None:
     wall = Zone("wall", "out", box((60.0, 0.0, 50.0), (4.0, 4000.0, 100.0), 0.0), ("world", "zones", "wall"))
     ends = sheet(-20.0, 30.0), sheet(120.0, 30.0)
@@ -205,6 +208,7 @@ def test_a_wall_above_what_the_mission_allows_is_refused_with_the_height_that_do
     assert not again.faults
 
 
+@pytest.mark.slow
 def test_dense_formations_rise_on_arcs_over_a_ridge() -> None:
     shape = ridge(45.0)
     mission, swarm = world(terrain=terrain(shape))
@@ -228,6 +232,7 @@ def hills(seed: int, height: float) -> Grid:
     return grid(height * np.asarray(waves), 10.0)
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(8, 200), deadline=None)
 @given(st.integers(0, 2**31), st.floats(5.0, 40.0), st.floats(1.0, 25.0))
 def test_whatever_the_hills_a_move_without_a_fault_is_clear_at_every_sample(

@@ -31,6 +31,7 @@ def fleet(side: int, spacing: float) -> Fleet:
     return Fleet("swarm", "show-drone", pads, 10.0, limits, 0.25, 900.0, APART, path, returns="own")
 
 
+@pytest.mark.slow
 @given(st.integers(0, 1000), st.integers(2, 40), st.floats(0.3, 4.0))
 @settings(max_examples=60)
 def test_two_of_one_level_are_apart_all_the_way(seed: int, count: int, least: float) -> None:

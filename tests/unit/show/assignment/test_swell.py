@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -28,6 +29,7 @@ from shotc.show.goals.room import DisplaySurroundings
 from shotc.show.separation import KeepApart
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from tests.support.display_missions import LIMITS, display, fleet, show
+from tests.support.few import few
 
 TIGHT = Gaps(1.0, 1.0)
 MIDDLE = (30.0, 60.0, 40.0)
@@ -50,6 +52,7 @@ def sampled(ends: tuple[Array, Array], move: ArcMove) -> Array:
     return np.asarray(BSpline(knots(breaks), coef, 3)(np.linspace(0.0, breaks[-1], 200)))
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**31), st.tuples(*[st.floats(-1, 1)] * 3))
 def test_nobody_is_farther_than_the_closed_bound(seed: int, direction: tuple[float, float, float]) -> None:
@@ -67,6 +70,7 @@ def test_nobody_is_farther_than_the_closed_bound(seed: int, direction: tuple[flo
     assert farthest <= 1.01 * bound + 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 2**31), st.booleans())
 def test_it_is_lifted_over_the_ground_or_kept_below_a_height(seed: int, low: bool) -> None:
@@ -80,22 +84,25 @@ def test_it_is_lifted_over_the_ground_or_kept_below_a_height(seed: int, low: boo
     assert z.max() <= heights.high + 1e-6
 
 
-@pytest.mark.parametrize("home", [False, True])
-@pytest.mark.parametrize("radius", [6.0, 10.0, 15.0])
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "move", few(product([6.0, 10.0, 15.0], ["out", "home"]), [(6.0, "home"), (15.0, "out")])
+)
 def test_between_low_pads_and_a_high_picture_the_swell_is_lifted_until_it_is_clear(
-    home: bool, radius: float
+    move: tuple[float, str],
 ) -> None:
     """Arcs about a lower point are others: the first that is lower may still reach into the ground."""
+    radius, way = move
     rng = np.random.default_rng(3)
     pads = np.array([(1.5 * (i % 4), 1.5 * (i // 4), 8.0) for i in range(12)])
     ball = rng.normal(size=(12, 3))
     ball = np.array([60.0, 30.0, 40.0]) + radius * ball / np.linalg.norm(ball, axis=1)[:, None]
-    ends = (ball, pads) if home else (pads, ball)
+    ends = (ball, pads) if way == "home" else (pads, ball)
     free = least_size(*(p * (1.0, 1.0, 0.6) / 1.5 for p in ends))
     for low in (2.25, 5.0, 7.5):
-        move, lack = led(ends, Heights(low, inf), DisplaySurroundings((), -inf), about(ends, free))
+        arcs, lack = led(ends, Heights(low, inf), DisplaySurroundings((), -inf), about(ends, free))
         assert lack.metres <= 1e-6
-        assert sampled(ends, move)[..., 2].min() >= low - 1e-6
+        assert sampled(ends, arcs)[..., 2].min() >= low - 1e-6
 
 
 def planned(*zones: Zone) -> tuple[TrajectoryIR | None, list[str], str]:

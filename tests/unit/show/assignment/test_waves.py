@@ -16,7 +16,6 @@ from shotc.ir.effects import Way
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Picture, Wave
-from shotc.passes.verify import judge
 from shotc.show.assignment import AssignGoals
 from shotc.show.assignment.over import MoveSurroundings
 from shotc.show.assignment.score import FlightScore
@@ -28,6 +27,7 @@ from shotc.show.solvers.match import matched
 from shotc.show.splines import BoundSplines
 from tests.support.few import examples
 from tests.support.fleet_scenes import APART, display, fleet, goals, grid, lattice, picture
+from tests.support.verdicts import verdict_on
 
 CONTEXT = PassContext(seed=1)
 STRETCH = np.array([1.0, 1.0, APART.across / APART.upright])
@@ -161,7 +161,7 @@ def claim_of(ir: ShowIR, flight: FleetTrajectory, drawn: Picture) -> tuple[bool,
     shown = mission.displays[0]
     mission = mission._replace(displays=(shown._replace(pictures=(shown.pictures[0], drawn)),))
     changed = replace(proved, keyframes=ir.goals.keyframes._replace(mission=mission), fleets=(flight,))
-    found = [c for c in judge(changed, CONTEXT).certificate if c.constraint == "error of wave"]
+    found = [c for c in verdict_on(changed).certificate if c.constraint == "error of wave"]
     return all(c.holds for c in found), max(c.worst for c in found)
 
 
@@ -177,9 +177,10 @@ def test_a_wave_is_flown_as_it_was_proved_and_nothing_bends_it() -> None:
     assert flight.shown[1].start - flight.shown[0].end == pytest.approx(16.0, abs=1e-6)
     at = places(flight.breaks, flight.coef, np.array([89.9, 90.0, 92.0]))
     assert np.ptp(at, axis=1).max() < 1e-3
-    assert all(claim.holds for claim in judge(done.value, CONTEXT).certificate)
+    assert all(claim.holds for claim in verdict_on(done.value).certificate)
 
 
+@pytest.mark.slow
 def test_a_plan_whose_drones_do_not_set_out_in_its_wave_is_refused() -> None:
     first = picture(path=("shots", 0, "frames", 0))
     drawn = asked(wave=wave(3.0), transition=16.0)
@@ -196,6 +197,7 @@ def test_a_plan_whose_drones_do_not_set_out_in_its_wave_is_refused() -> None:
     assert off == pytest.approx(3.0)
 
 
+@pytest.mark.slow
 def test_what_passes_too_near_in_a_wave_is_told_where_all_at_once_passes() -> None:
     sets = {"show": [[lattice(30, [0, 0, 40], 1.6, 2)], [lattice(30, [2, 0, 43], 1.6, np.inf)]]}
     first = picture(path=("shots", 0, "frames", 0))

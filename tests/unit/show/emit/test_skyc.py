@@ -57,6 +57,7 @@ def test_drones_are_where_the_plan_has_them(step: float) -> None:
         assert np.linalg.norm(np.array(found) - path, axis=1).max() <= promised + 5e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", STEPS)
 def test_key_points_are_as_the_server_wants_them(step: float) -> None:
     for drone in content(step)["swarm"]["drones"]:

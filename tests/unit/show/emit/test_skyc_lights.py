@@ -23,10 +23,11 @@ STACKS: dict[str, tuple[Layer, ...]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STACKS)
 def test_a_program_plays_back_what_is_planned(name: str) -> None:
     flight = lit(line(8), *STACKS[name])
-    times = np.arange(0.0, 20.0, 0.0137)  # between the moments, too
+    times = np.arange(0.0, 20.0, 0.0237)  # between the moments, too
     wanted = light_colors(flight, times)
     for drone, code in enumerate(programs(flight)):
         found = np.array([color_at(code, t) for t in times])

@@ -24,6 +24,7 @@ def nearest(points: Array, *, upright: bool) -> float:
     return float(size.min())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("dimensions", "upright"), list(DENSITY))
 def test_a_lattice_is_apart_and_as_dense_as_any(dimensions: int, upright: bool) -> None:
     size = np.full(dimensions, 40.0 if dimensions == 2 else 20.0)
@@ -35,6 +36,7 @@ def test_a_lattice_is_apart_and_as_dense_as_any(dimensions: int, upright: bool) 
     assert len(points) == pytest.approx(DENSITY[dimensions, upright] * whole, rel=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("upright", [False, True])
 def test_as_many_places_are_in_a_ball_as_the_closed_form_says(upright: bool) -> None:
     rng = np.random.default_rng(0)

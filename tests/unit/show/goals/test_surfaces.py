@@ -72,6 +72,7 @@ def test_places_that_rise_by_what_is_told_are_clear(seed: int, spread: float, ev
     assert (up[ROOM.lack(p) <= 0.0] == 0.0).all()
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(20, 300), deadline=None)
 @given(st.integers(0, 2**31))
 def test_the_worst_of_pieces_is_no_less_than_at_any_sample_and_no_more_than_a_little(seed: int) -> None:
@@ -109,6 +110,7 @@ def test_the_greatest_height_counts_from_the_ground_below(over: float) -> None:
     assert (ceiling.lack(p) > 0.0).all() == (over > 40.0)
 
 
+@pytest.mark.slow
 def test_a_picture_in_a_hill_is_shifted_by_what_gives_all_of_it_room() -> None:
     p = places(3, 40, 6.0)
     p[:, 2] -= 30.0

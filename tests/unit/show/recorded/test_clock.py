@@ -30,6 +30,7 @@ def moving(seed: int, seconds: float, drones: int = 4) -> Array:
     return np.moveaxis(np.concatenate(parts), 1, 0)
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10_000), st.floats(0.8, 30.0))
 def test_all_limits_hold_at_dense_samples_and_stretching_all_alike_is_no_faster(

@@ -31,6 +31,7 @@ def deviation(track: RecordedTrack, times: Array, breaks: Array, coef: Array) ->
     return float(np.linalg.norm(places(breaks, coef, at)[0] - track.curve(clock), axis=1).max())
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000), st.booleans(), st.booleans())
 def test_the_bound_holds_and_is_near(seed: int, stretched: bool, rests: bool) -> None:

@@ -22,6 +22,7 @@ def spline(move: WaveMove, starts: Array, goals: Array) -> tuple[Array, Array]:
     return move.piece * np.arange(move.pieces + 1), np.stack(points, axis=1)
 
 
+@pytest.mark.slow
 @given(
     seed=st.integers(0, 2**31),
     count=st.integers(2, 12),

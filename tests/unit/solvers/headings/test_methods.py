@@ -64,6 +64,7 @@ def test_solutions_meet_keyframes_and_limits_at_every_instant(method: str, yaw: 
     np.testing.assert_allclose(rates, 0.0, atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @settings(max_examples=25, deadline=None)
 @given(yaw=YAWS)
