@@ -91,18 +91,20 @@ def compare(
     source = read_mission(spec)
     from shotc.comparison import Options, compare_source, ordered
 
-    asked = ordered(plugins.names("refiners")) if names is None else names
+    refiner_names = ordered(plugins.names("refiners")) if names is None else names
     with Progress() as progress:
         done = compare_source(
-            source.data, source.name, source.folder, Options(asked, smoothings, deadline, progress)
+            source.data, source.name, source.folder, Options(refiner_names, smoothings, deadline, progress)
         )
-        found = _shown(done)
+        comparison = _shown(done)
         from shotc.comparison.outputs import artifacts
 
-        made = artifacts(found, progress)
-    paths, faults = write(made.artifacts, output or Path("out") / file_name(found.mission.name) / "compare")
+        made = artifacts(comparison, progress)
+    paths, faults = write(
+        made.artifacts, output or Path("out") / file_name(comparison.mission.name) / "compare"
+    )
     console.report((*done.diagnostics, *made.diagnostics, *faults), done.sources)
-    console.out(_printed(found, format, paths))
+    console.out(_printed(comparison, format, paths))
     raise typer.Exit(console.exit_code(faults))
 
 

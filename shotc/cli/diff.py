@@ -71,9 +71,9 @@ def _claim(old: Claim | None, new: Claim | None) -> tuple[str, ...] | None:
     either = new or old
     assert either is not None
     name = f"{either.subject}: {either.constraint}" + (f" ({either.shot})" if either.shot else "")
-    asked = _arrow(*(_say(c, c.limit) if c else "none" for c in (old, new)))
+    limits = _arrow(*(_say(c, c.limit) if c else "none" for c in (old, new)))
     worst = _arrow(*(_say(c, c.worst) + _state(c) if c else "none" for c in (old, new)))
-    return None if "->" not in asked + worst else (name, asked, worst)
+    return None if "->" not in limits + worst else (name, limits, worst)
 
 
 def _say(claim: Claim, value: float) -> str:

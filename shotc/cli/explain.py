@@ -30,16 +30,16 @@ def explain(code: Code = None) -> None:
     console.out(_listing(table) if code is None else _page(_find(code, table)))
 
 
-def _find(wanted: str, table: Mapping[str, CodeInfo]) -> CodeInfo:
+def _find(code_or_slug: str, table: Mapping[str, CodeInfo]) -> CodeInfo:
     """Return the code with this name or slug. For an unknown one, raise a usage error with the nearest."""
     by_name = {code.lower(): info for code, info in table.items()}
     by_name |= {info.slug: info for info in table.values()}
-    if info := by_name.get(wanted.strip().lower()):
+    if info := by_name.get(code_or_slug.strip().lower()):
         return info
-    near = get_close_matches(wanted.lower(), by_name, n=3, cutoff=0.5)
+    near = get_close_matches(code_or_slug.lower(), by_name, n=3, cutoff=0.5)
     names = [f"{by_name[name].code} ({by_name[name].slug})" for name in near]
     hint = f"did you mean {' or '.join(dict.fromkeys(names))}?" if near else "`shotc explain` lists all codes"
-    raise typer.BadParameter(f"`{wanted}` is no code; {hint}", param_hint="CODE")
+    raise typer.BadParameter(f"`{code_or_slug}` is no code; {hint}", param_hint="CODE")
 
 
 def _page(info: CodeInfo) -> str:

@@ -63,8 +63,10 @@ def _unknown_lenses(mission: MissionIR) -> list[str]:
     texts = []
     for drone in mission.drones:
         shots = (shot for shot in mission.shots if shot.drone == drone.name)
-        asked = {drone.hfov, *(keyframe.hfov for shot in shots for keyframe in shot.keyframes)}
-        if drone.lens is None and len(asked) > 1:
-            wish = f"{drone.name} has to zoom from {degrees(min(asked)):.4g} to {degrees(max(asked)):.4g} deg"
+        lenses = {drone.hfov, *(keyframe.hfov for shot in shots for keyframe in shot.keyframes)}
+        if drone.lens is None and len(lenses) > 1:
+            wish = (
+                f"{drone.name} has to zoom from {degrees(min(lenses)):.4g} to {degrees(max(lenses)):.4g} deg"
+            )
             texts.append(f"{wish}, and nothing says that its camera can: `camera: {{zoom: [24 mm, 70 mm]}}`")
     return texts

@@ -29,14 +29,14 @@ def stretches(lost: Sequence[str]) -> tuple[tuple[float, float], ...]:
 def _stretch(text: str) -> tuple[float, float]:
     start, _, end = text.partition(":")
     try:
-        found = float(start), float(end)
+        span = float(start), float(end)
     except ValueError:
-        found = (0.0, 0.0)
-    if not (isfinite(found[1]) and 0.0 <= found[0] < found[1]):
+        span = (0.0, 0.0)
+    if not (isfinite(span[1]) and 0.0 <= span[0] < span[1]):
         raise typer.BadParameter(
             f"`{text}` is no stretch of time; write FROM:TO in seconds", param_hint="--lost"
         )
-    return found
+    return span
 
 
 def true_tracks(

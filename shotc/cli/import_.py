@@ -103,9 +103,9 @@ def import_(
     if format == SHOWS:
         _import_show(file, output, strict=strict)
         return
-    asked = ImportOptions(every=every, times=times, fps=fps, ground=ground)
+    options = ImportOptions(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
-    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, options=asked)
+    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, options=options)
     text = _accepted(made, file, None)
     _save(text, output)
     counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"

@@ -17,7 +17,7 @@ from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
 from shotc.cli.hands import Workers
 from shotc.cli.inputs import gather, is_folder, read_mission
 from shotc.cli.plan_many import one_mission_only, plan_many
-from shotc.cli.refiner import told
+from shotc.cli.refiner import with_missing
 from shotc.filenames import file_name
 from shotc.ir.text import dump
 from shotc.output import write
@@ -149,7 +149,7 @@ def plan(
             hands.prepare(mission.emit if emitters is None else emitters)
 
         options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start, headings)
-        done = told(compile_source(source.data, source.name, source.folder, options), refiner)
+        done = with_missing(compile_source(source.data, source.name, source.folder, options), refiner)
         if dump_ir is not None:
             _dump(done, dump_ir)
         if options.stop_after is None:

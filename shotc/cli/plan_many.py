@@ -49,8 +49,8 @@ def plan_many(
     console.report(faults, sources)
     if has_errors(faults):
         return console.EXIT_REJECTED
-    asked = None if emitters is None else tuple(emitters)
-    jobs = [Job(text.data, text.name, text.folder.resolve(), options, asked) for text in gathered.missions]
+    outputs = None if emitters is None else tuple(emitters)
+    jobs = [Job(text.data, text.name, text.folder.resolve(), options, outputs) for text in gathered.missions]
     batch = _Batch(jobs, root)
     with Progress() as progress, at_work():
         progress(f"0 of {len(jobs)} missions")
@@ -90,8 +90,8 @@ class _Batch:
         self.outcomes[name] = made.outcome
         self._waiting[name] = made
         while self._due and self._due[0] in self._waiting:
-            due = self._waiting.pop(self._due.popleft())
-            console.report(due.diagnostics, due.sources)
+            outcome = self._waiting.pop(self._due.popleft())
+            console.report(outcome.diagnostics, outcome.sources)
 
 
 def _written(made: Planned, folder: Path) -> Planned:

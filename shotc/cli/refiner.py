@@ -7,13 +7,13 @@ from shotc.api import Compilation
 from shotc.diag.model import Diagnostic
 
 
-def told(done: Compilation, asked: str | None) -> Compilation:
+def with_missing(done: Compilation, refiner: str | None) -> Compilation:
     """Add the diagnostic of a missing refiner if the path could have been refined and no name was given."""
     reached = any(report.name == "refine-path" for report in done.reports)
-    return done._replace(diagnostics=(*done.diagnostics, *missing(asked))) if reached else done
+    return done._replace(diagnostics=(*done.diagnostics, *missing(refiner))) if reached else done
 
 
-def missing(asked: str | None) -> tuple[Diagnostic, ...]:
-    """Return the diagnostic of a missing refiner; nothing if one is installed or ``asked`` names one."""
-    there = asked is not None or plugins.usual_refiner() != plugins.NO_REFINER
+def missing(refiner: str | None) -> tuple[Diagnostic, ...]:
+    """Return the diagnostic of a missing refiner; nothing if one is installed or ``refiner`` names one."""
+    there = refiner is not None or plugins.usual_refiner() != plugins.NO_REFINER
     return () if there else (plugins.no_refiner(),)

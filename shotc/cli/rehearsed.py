@@ -19,14 +19,14 @@ def text(done: Rehearsed, paths: Sequence[Path]) -> str:
 
 
 def _lines(done: Rehearsed, paths: Sequence[Path]) -> Iterator[str]:
-    found = summary(done)
-    yield f"{done.mission.name}: {found.flown}"
-    for rows in found.tables:
+    described = summary(done)
+    yield f"{done.mission.name}: {described.flown}"
+    for rows in described.tables:
         yield ""
         yield from (f"  {line}" for line in table(rows))
     yield ""
-    yield from (f"  asked     {line}" for line in found.asked)
+    yield from (f"  asked     {line}" for line in described.asked)
     yield f"  worst     run {done.worst.number}"
-    yield from (f"  note      {line}" for line in found.notes)
+    yield from (f"  note      {line}" for line in described.notes)
     if paths:
         yield from ("", f"  wrote     {paths[0].parent}/: {', '.join(path.name for path in paths)}")

@@ -15,42 +15,46 @@ HEADING = ("collective return", "from", "at rest", "over the pads", "landed", "n
 
 def returns_text(returns: Sequence[Return], every: float) -> str:
     """Return the table of the returns that take longest, brake longest and come nearest to something."""
-    held = [found for found in returns if found.holds]
+    held = [held_return for held_return in returns if held_return.holds]
     rows: list[tuple[str, ...]] = []
     if held:
-        longest = max(held, key=lambda found: found.down - found.time)
-        slowest = max(held, key=lambda found: _rest(found) - found.time)
+        longest = max(held, key=lambda held_return: held_return.down - held_return.time)
+        slowest = max(held, key=lambda held_return: _rest(held_return) - held_return.time)
         rows += [_row("longest", longest), _row("longest until at rest", slowest)]
-        apart = [(near.worst / near.limit, found) for found in held if (near := found.nearest) is not None]
+        apart = [
+            (near.worst / near.limit, held_return)
+            for held_return in held
+            if (near := held_return.nearest) is not None
+        ]
         if apart:
             rows.append(_row("nearest drones", min(apart, key=lambda pair: pair[0])[1]))
     first = f"{len(held)} of {len(returns)} returns hold, one every {every:g} s from lift-off to landing"
     return "\n".join([first, *(["", *("  " + line for line in table([HEADING, *rows]))] if rows else [])])
 
 
-def _row(name: str, found: Return) -> tuple[str, ...]:
-    near = found.nearest
-    over = max(fleet.over for fleet in found.fleets)
-    spans = (f"{time - found.time:.1f} s" for time in (_rest(found), over, found.down))
+def _row(name: str, fleet_return: Return) -> tuple[str, ...]:
+    near = fleet_return.nearest
+    over = max(fleet.over for fleet in fleet_return.fleets)
+    spans = (f"{time - fleet_return.time:.1f} s" for time in (_rest(fleet_return), over, fleet_return.down))
     apart = ""
     if near is not None:
         pair = " and ".join(near.drones)
         apart = f"{measure(near.worst, near.unit)} of {measure(near.limit, near.unit)}, {pair}"
-    return (name, as_minutes(found.time), *spans, apart)
+    return (name, as_minutes(fleet_return.time), *spans, apart)
 
 
-def _rest(found: Return) -> float:
-    return max(fleet.rest for fleet in found.fleets)
+def _rest(fleet_return: Return) -> float:
+    return max(fleet.rest for fleet in fleet_return.fleets)
 
 
 def returns_document(returns: Sequence[Return]) -> list[dict[str, Any]]:
     """Return the returns for JSON: times in seconds of mission time, distances in metres."""
     return [
         {
-            "time": found.time,
-            "holds": found.holds,
-            "landed": round(found.down, 6),
-            "nearest": None if (near := found.nearest) is None else near.worst,
+            "time": fleet_return.time,
+            "holds": fleet_return.holds,
+            "landed": round(fleet_return.down, 6),
+            "nearest": None if (near := fleet_return.nearest) is None else near.worst,
             "fleets": [
                 {
                     "fleet": fleet.fleet,
@@ -59,9 +63,9 @@ def returns_document(returns: Sequence[Return]) -> list[dict[str, Any]]:
                     "landed": round(fleet.down, 6),
                     "as_planned": fleet.track is None,
                 }
-                for fleet in found.fleets
+                for fleet in fleet_return.fleets
             ],
-            "broken": [f"{claim.subject}: {claim.constraint}" for claim in found.broken],
+            "broken": [f"{claim.subject}: {claim.constraint}" for claim in fleet_return.broken],
         }
-        for found in returns
+        for fleet_return in returns
     ]

@@ -43,11 +43,11 @@ def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         picture = re.fullmatch(r"goals (.+)/(\d+) layers", name)
         if picture:
             at = name.removesuffix("layers")
-            count, deep, seen, aside = (float(known[at + key]) for key in LAYERS)
+            count, deep, seen, off = (float(known[at + key]) for key in LAYERS)
             where = f"picture {picture[2]} of {picture[1]}"
             yield (
                 f"{where} is {deep:.2f} m deep, in {count:.0f} layers: its lights may look {seen:.2f} m "
-                f"apart, and from 20 m beside the axis the last layer looks {aside:.2f} m aside"
+                f"apart, and from 20 m beside the axis the last layer looks {off:.2f} m aside"
             )
 
 
@@ -94,9 +94,9 @@ def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         "led round": "flies round others, {:.1f} s longer",
     }
     for name, value in stats:
-        found = re.fullmatch(rf"fleet (.+) ({'|'.join(words)})", name)
-        if found:
-            yield f"{found[1]} {words[found[2]].format(value)}: another one is in its way"
+        match = re.fullmatch(rf"fleet (.+) ({'|'.join(words)})", name)
+        if match:
+            yield f"{match[1]} {words[match[2]].format(value)}: another one is in its way"
 
 
 def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:

@@ -17,7 +17,7 @@ from shotc.cli.flight_options import stretches, true_tracks
 from shotc.cli.hands import Workers, at_work, no_cluster
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
-from shotc.cli.refiner import told
+from shotc.cli.refiner import with_missing
 from shotc.cli.verify import CertificateFormat
 from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
@@ -154,7 +154,7 @@ def simulate(
         from shotc.simulation.unfinished import Unfinished
 
         mission = plan.trajectory.keyframes.mission
-        asked = RehearsalOptions(
+        options = RehearsalOptions(
             loop,
             seeds,
             wind,
@@ -169,12 +169,12 @@ def simulate(
             replanner,
             vehicle,
         )
-        conditions = conditions_of(mission, asked)
+        conditions = conditions_of(mission, options)
         faults = (*_unable(conditions, workers), *unflyable(plan.trajectory, conditions))
         if faults:
             console.report(faults, sources)
             raise typer.Exit(console.EXIT_REJECTED)
-        count = runs_of(plan.trajectory, conditions, asked)
+        count = runs_of(plan.trajectory, conditions, options)
         progress(f"flying {count} run{'s' if count > 1 else ''}")
         kept = Unfinished.of(folder, plan.trajectory, conditions)
         earlier = kept.done()
@@ -186,10 +186,10 @@ def simulate(
         made = artifacts(done, plan, progress)
     paths, faults = write(made.artifacts, folder)
     kept.file.forget()
-    found = (*made.diagnostics, *not_kept(done), *deviations(done), *faults)
-    console.report(found, sources)
+    diagnostics = (*made.diagnostics, *not_kept(done), *deviations(done), *faults)
+    console.report(diagnostics, sources)
     console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
-    raise typer.Exit(console.exit_code(found))
+    raise typer.Exit(console.exit_code(diagnostics))
 
 
 class _Proved(NamedTuple):
@@ -212,7 +212,9 @@ def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> 
         diagnostics, sources = report.diagnostics, report.sources
     else:
         text = read_mission(source)
-        done = told(compile_source(text.data, text.name, text.folder, PlanOptions(progress=progress)), None)
+        done = with_missing(
+            compile_source(text.data, text.name, text.folder, PlanOptions(progress=progress)), None
+        )
         plan, beside = done.plan, Path("out") / (file_name(done.mission) if done.mission else "")
         diagnostics, sources = done.diagnostics, done.sources
     if plan is None:

@@ -70,7 +70,7 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
 
         shotc stream out/runner --to near=udp:14540 --to far=udp:14541 --target runner=udp:14600 --arm
     """
-    found, targets = _addresses(to or [], "--to"), _addresses(target or [], "--target")
+    given, targets = _addresses(to or [], "--to"), _addresses(target or [], "--target")
     if find_spec("pymavlink") is None:
         console.report([not_installed("P004", "`shotc stream`", ["pymavlink"])], {})
         raise typer.Exit(console.EXIT_REJECTED)
@@ -79,7 +79,7 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
         console.report(report.diagnostics, report.sources)
         raise typer.Exit(console.EXIT_REJECTED)
     flown = [track.drone for track in report.plan.trajectory.drones]
-    addresses = _of_one(found, flown)
+    addresses = _of_one(given, flown)
     _all_named(addresses, flown)
     _all_filmed(targets, report.plan.trajectory)
     raise typer.Exit(_stream(report, addresses, targets, arm=arm))
@@ -93,13 +93,13 @@ def _stream(
 
     assert report.plan is not None
     with Session(report.plan, DOORS, WallClock(), console.note) as session:
-        found = session.open(addresses, targets)
+        diagnostics = session.open(addresses, targets)
         aboard: list[Aboard] = []
-        if not has_errors(found):
+        if not has_errors(diagnostics):
             aboard, judged = session.check()
-            found = [*found, *judged]
-        console.report(found, report.sources)
-        if console.exit_code(found):
+            diagnostics = [*diagnostics, *judged]
+        console.report(diagnostics, report.sources)
+        if console.exit_code(diagnostics):
             return console.EXIT_REJECTED
         console.out(_checked(aboard))
         if not arm:
@@ -158,18 +158,18 @@ def _end(flown: FlightResult, pilot: Pilot) -> str:
 
 def _addresses(texts: Sequence[str], option: str) -> dict[str, Endpoint]:
     """Return addresses by name; the name is "" for an address without one."""
-    found: dict[str, Endpoint] = {}
+    endpoints: dict[str, Endpoint] = {}
     for text in texts:
         name, equals, address = text.rpartition("=")
         if option == "--target" and not equals:
             raise typer.BadParameter(f"`{text}` names no target; write `NAME=udp:PORT`", param_hint=option)
-        if name in found:
+        if name in endpoints:
             raise typer.BadParameter(f"`{name or text}` is given twice", param_hint=option)
         try:
-            found[name] = endpoint(address)
+            endpoints[name] = endpoint(address)
         except ValueError as fault:
             raise typer.BadParameter(str(fault), param_hint=option) from None
-    return found
+    return endpoints
 
 
 def _of_one(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> dict[str, Endpoint]:

@@ -114,7 +114,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("energy", text) for text in _energy(plan)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
-    ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
+    ways = {method: sum(c.method == method for c in hard) for method in ("bounded", "exact", "sampled")}
     facts.append(
         (
             "proof",
@@ -128,8 +128,8 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
-    told = (recorded, taking_off, dense, layered, beside)
-    facts += [("shows", text) for tell in told for text in tell(flown.stats)]
+    describers = (recorded, taking_off, dense, layered, beside)
+    facts += [("shows", text) for tell in describers for text in tell(flown.stats)]
     facts += [("note", text) for text in (*centred(plan.trajectory.keyframes), *_without_files(mission))]
     return facts + [("note", note) for note in notes]
 
@@ -375,8 +375,8 @@ def _values(claim: Claim) -> tuple[str, str, str]:
     worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     if not claim.holds:
         worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
-    asked = f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-"
-    return claim.constraint, asked, worst if isfinite(claim.worst) else "-"
+    limit_text = f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-"
+    return claim.constraint, limit_text, worst if isfinite(claim.worst) else "-"
 
 
 def mark(claim: Claim) -> str:

@@ -186,8 +186,8 @@ def _flights_document(report: FlightsReport) -> str:
     from shotc.planfile.codec import encode
 
     document = json.loads(render(report.diagnostics, report.sources))
-    found = {"holds": report.holds, "certificate": encode(report.certificate), "notes": list(report.notes)}
-    return json.dumps(found | document, indent=2)
+    result = {"holds": report.holds, "certificate": encode(report.certificate), "notes": list(report.notes)}
+    return json.dumps(result | document, indent=2)
 
 
 def _print(report: PlanReport) -> None:
@@ -205,9 +205,9 @@ def _document(report: PlanReport, returns: Sequence[Return] | None) -> str:
     from shotc.planfile.codec import encode
 
     document = json.loads(render(report.diagnostics, report.sources))
-    found: dict[str, Any] = {"holds": report.plan is not None, "certificate": encode(report.certificate)}
+    result: dict[str, Any] = {"holds": report.plan is not None, "certificate": encode(report.certificate)}
     if returns is not None:
         from shotc.cli.returns import returns_document
 
-        found["returns"] = returns_document(returns)
-    return json.dumps(found | document, indent=2)
+        result["returns"] = returns_document(returns)
+    return json.dumps(result | document, indent=2)

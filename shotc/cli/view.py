@@ -16,7 +16,7 @@ from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.plans import proved
-from shotc.cli.refiner import told
+from shotc.cli.refiner import with_missing
 from shotc.diag.model import Diagnostic
 from shotc.requirements import remedy
 
@@ -60,7 +60,7 @@ def _planned(spec: str) -> VerifiedIR:
     """Return the plan of a mission. If there is none, report why and exit."""
     source = read_mission(spec)
     options = PlanOptions(progress=console.note)
-    done = told(compile_source(source.data, source.name, source.folder, options), None)
+    done = with_missing(compile_source(source.data, source.name, source.folder, options), None)
     console.report(done.diagnostics, done.sources)
     if done.plan is None:
         raise typer.Exit(console.EXIT_REJECTED)

@@ -41,9 +41,9 @@ class PlaceKeyframes:
                 diagnostics += [*wrong, *_sized(ir, moving)]
                 continue
             if shot.ideal is not None:
-                subjects, found = place_subjects(ir, shot)
+                subjects, faults = place_subjects(ir, shot)
                 shots.append(PlacedShot(shot, (), subjects))
-                diagnostics += [*found, *_sized(ir, shots[-1])]
+                diagnostics += [*faults, *_sized(ir, shots[-1])]
                 continue
             placed, misses = place_shot(ir, shot)
             shots.append(PlacedShot(shot, placed))

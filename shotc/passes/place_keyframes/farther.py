@@ -27,15 +27,15 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCa
     """
     if not keyframe.placed and shot.kind in DISTANCES:
         return _by_parameter(mission, shot, keyframe, setting, fits)
-    aside = hypot(*setting.offset[:2]) > ABOVE_AXIS_M
-    level = aside and not keyframe.placed
+    off_axis = hypot(*setting.offset[:2]) > ABOVE_AXIS_M
+    level = off_axis and not keyframe.placed
     offset = _back(setting, fits, level=level)
     radius = mission.drone(shot.drone).radius
 
     def low(place: Vec3) -> bool:
         return place[2] < mission.lowest(place, radius)
 
-    if aside and not level and (offset is None or low(_place(keyframe, setting, offset))):
+    if off_axis and not level and (offset is None or low(_place(keyframe, setting, offset))):
         level, offset = True, _back(setting, fits, level=True)
     if offset is None:
         return ""

@@ -46,22 +46,22 @@ class Miss(NamedTuple):
 
 def missed(unmet: Unmet) -> Miss:
     """Return the report on a keyframe whose composition is infeasible."""
-    keyframe, setting, aim, asked, place = unmet
-    if asked is None:
+    keyframe, setting, aim, requested, place = unmet
+    if requested is None:
         return cropped_or_beyond(keyframe, setting, aim)
     return (
-        does_not_fit(keyframe, setting, asked)
+        does_not_fit(keyframe, setting, requested)
         if place is None
-        else off_composition(keyframe, setting, asked, place)
+        else off_composition(keyframe, setting, requested, place)
     )
 
 
-def off_composition(keyframe: Keyframe, setting: FixedCamera, asked: Vec2, place: Vec2) -> Miss:
+def off_composition(keyframe: Keyframe, setting: FixedCamera, requested: Vec2, place: Vec2) -> Miss:
     """Return the warning that the target stands off its set: it would be cropped, or is out of reach."""
     instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
     free = setting._replace(pitch=(-pi / 2, pi / 2))
-    wanted = nearest_candidate(free, keyframe.composition, asked)
-    aim = None if wanted is None else free.aim(wanted)
+    alternative = nearest_candidate(free, keyframe.composition, requested)
+    aim = None if alternative is None else free.aim(alternative)
     if aim is not None:
         return Miss(
             "G011",
@@ -122,11 +122,11 @@ def _widest(mission: MissionIR, shot: Shot) -> float:
     return WIDEST_RAD if lens is None else lens.widest
 
 
-def does_not_fit(keyframe: Keyframe, setting: FixedCamera, asked: Vec2) -> Miss:
+def does_not_fit(keyframe: Keyframe, setting: FixedCamera, requested: Vec2) -> Miss:
     """Return why no place of the set, nor of its vertical lines, is a candidate."""
     free = setting._replace(pitch=(-pi / 2, pi / 2))
-    place = nearest_candidate(free, keyframe.composition, asked)
-    place = place or nearest_on_verticals(free, keyframe.composition, asked)
+    place = nearest_candidate(free, keyframe.composition, requested)
+    place = place or nearest_on_verticals(free, keyframe.composition, requested)
     aim = None if place is None else free.aim(place)
     if aim is not None:
         return _beyond_gimbal(keyframe, setting, aim)

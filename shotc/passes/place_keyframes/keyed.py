@@ -24,7 +24,7 @@ def place_keyed(mission: MissionIR, shot: Shot) -> tuple[PlacedShot, list[Diagno
     keyframes, misses = place_shot(mission, shot, then)
     subjects = tuple(PlacedSubject(s.target, None, s.size, s.view, s.path) for s in shot.subjects)
     sure = [is_sure(mission, shot, k) for k in shot.keyframes]
-    faults = _told(shot, then, misses, sure)
+    faults = _diagnostics(shot, then, misses, sure)
     if all(sure):
         faults += while_following(mission, shot.keyframes, keyframes)
     return PlacedShot(shot, keyframes, subjects), faults
@@ -44,11 +44,11 @@ def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diag
     ]
     if unseen:
         return unseen
-    diagnostics = _told(shot, then, place_shot(mission, shot, then)[1], open_)
+    diagnostics = _diagnostics(shot, then, place_shot(mission, shot, then)[1], open_)
     return [*diagnostics, *(while_following(mission, shot.keyframes, placed.keyframes) if any(open_) else [])]
 
 
-def _told(
+def _diagnostics(
     shot: Shot, then: Sequence[MissionIR], misses: Sequence[Unmet], judged: Sequence[bool]
 ) -> list[Diagnostic]:
     """Return the misses of the keyframes that are judged, each for the mission at its own time."""

@@ -38,30 +38,30 @@ class SizeCase(NamedTuple):
 
 def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
     """Return the warning about a shot whose target does not have the requested size, or None."""
-    shot, asked = placed.shot, placed.shot.size
-    if asked is None or (shot.ideal is not None and shot.ideal.framed):
+    shot, required = placed.shot, placed.shot.size
+    if required is None or (shot.ideal is not None and shot.ideal.framed):
         return None
     looks = list(_at_keyframes(mission, placed) if placed.keyframes else _on_clock(mission, placed))
     if not looks:
         return None
-    worst = max(looks, key=lambda look: abs(look.size / asked - 1.0))
-    if abs(worst.size / asked - 1.0) <= OFF_SIZE_SHARE:
+    worst = max(looks, key=lambda look: abs(look.size / required - 1.0))
+    if abs(worst.size / required - 1.0) <= OFF_SIZE_SHARE:
         return None
     low, high = min(look.size for look in looks), max(look.size for look in looks)
     sizes = f"{low:.3g} to {high:.3g}" if high - low > 0.01 * high else f"{worst.size:.3g}"
     return Diagnostic(
         "M035",
-        f"the size of `{worst.name}` in shot `{shot.id}` is {sizes}, not {asked:.3g}",
+        f"the size of `{worst.name}` in shot `{shot.id}` is {sizes}, not {required:.3g}",
         (mission.origins.value((*shot.path, "size")),),
         (
             "other numbers of the shot decide how far away the camera is",
-            _instead(mission, worst, asked),
+            _instead(mission, worst, required),
         ),
-        f"change those numbers or the lens, or leave `size` out{_framed(mission, placed, asked)}",
+        f"change those numbers or the lens, or leave `size` out{_framed(mission, placed, required)}",
     )
 
 
-def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
+def _framed(mission: MissionIR, placed: PlacedShot, required: float) -> str:
     """Return the framing that gives the target its size, for a shot with one target and a duration."""
     shot, written = placed.shot, mission.origins.keys
     names = {subject.target for subject in placed.subjects} | {k.target for k in placed.keyframes} - {None}
@@ -69,23 +69,21 @@ def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
         return ""
     kept = ("id", "kind", "drone", "timing", "pace", "require", "refine", "allow")
     own = [str(path[-1]) for path in written if path[:-1] == shot.path and path[-1] not in kept]
-    subject = f"{{target: {names.pop()}, size: {asked:.3g}}}"
+    subject = f"{{target: {names.pop()}, size: {required:.3g}}}"
     return f", or write `kind: framing, subjects: [{subject}]` in place of {each(own)}"
 
 
-def _instead(mission: MissionIR, look: SizeCase, asked: float) -> str:
+def _instead(mission: MissionIR, look: SizeCase, required: float) -> str:
     """Return the distance and the lens that would give a target its size."""
     target = mission.target(look.name)
-    wanted = Wanted(target.centre, target.shape, look.uv)
+    subject = Wanted(target.centre, target.shape, look.uv)
     away = hypot(*look.offset)
     x, y, z = (c / away for c in look.offset)
-    distance = distance_for(wanted, look.lens, (x, y, z), asked)
-    said = (
-        f"its size is {look.size:.3g} from {away:.1f} m away; it would be {asked:.3g} from {distance:.1f} m"
-    )
-    if distance < nearest(wanted, (x, y, z), mission.rules.target_clearance):
+    far = distance_for(subject, look.lens, (x, y, z), required)
+    said = f"its size is {look.size:.3g} from {away:.1f} m away; it would be {required:.3g} from {far:.1f} m"
+    if far < nearest(subject, (x, y, z), mission.rules.target_clearance):
         said += ", which is too near"
-    hfov = lens_for(wanted, look.lens, look.offset, asked)
+    hfov = lens_for(subject, look.lens, look.offset, required)
     return said if hfov is None else f"{said}, or from there with `hfov: {degrees(hfov):.0f} deg`"
 
 

@@ -59,17 +59,19 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
     if place is not None:
         return place, []
     instead = nearest_on_verticals(setting, composition, MIDDLE)
-    wanted = _nearest_of_all(setting, composition)
-    told = _cropped(mission, shot, subject, wanted, instead)
-    return instead or wanted, [told._replace(help=_whole(mission, shot, setting, composition) or told.help)]
+    reference = _nearest_of_all(setting, composition)
+    fault = _cropped(mission, shot, subject, reference, instead)
+    return instead or reference, [
+        fault._replace(help=_whole(mission, shot, setting, composition) or fault.help)
+    ]
 
 
 def _cropped_at(mission: MissionIR, shot: Shot, subject: Subject) -> Vec2 | None:
     """Return a reference at which the one subject of a framing is cropped; None where it is whole."""
     times = [setpoint.time for setpoint in subject.setpoints]
     for time in [0.0, *times] if times else [_half(shot)]:
-        asked = subject.asked(time)
-        whole, place = asked.size is None or asked.size <= 1.0, asked.place or MIDDLE
+        appearance = subject.asked(time)
+        whole, place = appearance.size is None or appearance.size <= 1.0, appearance.place or MIDDLE
         if whole and setting_at(mission, shot, subject.target, time).slack(place) < -TOUCH_M:
             return place
     return None
@@ -118,10 +120,10 @@ def _nearest_of_all(setting: FixedCamera, composition: Composition) -> Vec2:
 
 
 def _cropped(
-    mission: MissionIR, shot: Shot, subject: Subject, wanted: Vec2, instead: Vec2 | None
+    mission: MissionIR, shot: Shot, subject: Subject, reference: Vec2, instead: Vec2 | None
 ) -> Diagnostic:
     label = mission.origins.value(subject.path)
-    where = f"({wanted[0]:.2f}, {wanted[1]:.2f})"
+    where = f"({reference[0]:.2f}, {reference[1]:.2f})"
     if shot.ideal is not None and shot.ideal.framed:
         note = "the camera goes where it has this place and its size, cropped as it is"
     elif instead is not None:

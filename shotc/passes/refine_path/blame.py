@@ -65,7 +65,7 @@ def shortest_refined(
     """
     unrefined = {d.labels[0].span: d for d in convex if d.code == TOO_SHORT}
 
-    def told(d: Diagnostic) -> Diagnostic:
+    def refined_time(d: Diagnostic) -> Diagnostic:
         other = unrefined.get(d.labels[0].span) if d.code == TOO_SHORT else None
         if other is None or other.message == d.message:
             return d
@@ -76,7 +76,7 @@ def shortest_refined(
             notes=(*d.notes, f"the convex path is too slow, too: {other.message}"),
         )
 
-    return tuple(told(d) for d in diagnostics)
+    return tuple(refined_time(d) for d in diagnostics)
 
 
 def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:

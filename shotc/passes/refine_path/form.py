@@ -174,10 +174,10 @@ def _pads(old: DronePath, new: DronePath) -> Iterator[RefinerFinding]:
     for was, now in zip(_lifts(old), _lifts(new), strict=True):
         ends = ((was.pose, now.pose), (was.end_pose, now.end_pose))
         moved = max(_apart(old_end, new_end) for old_end, new_end in ends)
-        aside = float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
-        if moved > SAME_PLACE_TOLERANCE or aside > SAME_PLACE_TOLERANCE:
+        drift = float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
+        if moved > SAME_PLACE_TOLERANCE or drift > SAME_PLACE_TOLERANCE:
             yield RefinerFinding(
-                "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, aside):.3f} m",)
+                "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, drift):.3f} m",)
             )
 
 

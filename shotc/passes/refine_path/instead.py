@@ -23,11 +23,11 @@ def with_convex(
     """
     against = next((d for d in later if has_errors([d])), None)
     return tuple(
-        _told(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in diagnostics
+        _with_convex(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in diagnostics
     )
 
 
-def _told(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagnostic:
+def _with_convex(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagnostic:
     shot = shot_of(path.keyframes.mission, error)
     whose = "the convex path" if shot is None else f"the convex path of shot `{shot}`"
     if against is not None:

@@ -168,9 +168,9 @@ def _earlier(ir: KeyframeIR, order: Sequence[Drone], drone: Drone) -> list[Drone
     return _after_needs(ir, [drone, *(other for other in order if other is not drone)])
 
 
-def _after_needs(ir: KeyframeIR, wanted: Sequence[Drone]) -> list[Drone]:
+def _after_needs(ir: KeyframeIR, drones: Sequence[Drone]) -> list[Drone]:
     """Return drones in the given order, but each after those that its shots wait for."""
-    left = list(wanted)
+    left = list(drones)
     owner = {placed.shot.id: placed.shot.drone for placed in ir.shots}
     needs: dict[str, set[str]] = {drone.name: set() for drone in left}
     for placed in ir.shots:
@@ -273,10 +273,10 @@ def _on_clock(
         ctx.progress(f"way to and through shot {placed.shot.id}")
         trouble = itinerary.film(shot)
         if trouble is not None:
-            return _stopped(*warnings, _told(itinerary, placed, trouble))
+            return _stopped(*warnings, _diagnostic(itinerary, placed, trouble))
     trouble = itinerary.home()
     if trouble is not None:
-        return _stopped(*warnings, _told(itinerary, None, trouble))
+        return _stopped(*warnings, _diagnostic(itinerary, None, trouble))
     curved = [s for s in shots if isinstance(s, PlannedShot)]
     left = left_places(mission, itinerary.deviations)
     deviations: list[Deviation] = [d for s in curved for d in s.deviations]
@@ -285,7 +285,7 @@ def _on_clock(
     return _Planned(tuple(itinerary.legs), tuple(deviations), stats, (*warnings, *left))
 
 
-def _told(itinerary: Itinerary, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
+def _diagnostic(itinerary: Itinerary, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
     """Return the error for a shot on the clock that is infeasible, or for the way home."""
     mission, flight = itinerary.mission, itinerary.flight
     if isinstance(trouble, Meets):

@@ -47,6 +47,6 @@ def above_ground(flight: JudgedFlight, free: Pieces) -> Iterator[Claim]:
     yield bounded(flight, limit, high)
 
 
-def _known(found: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
+def _known(bound: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
     """Return a bound; where the flight leaves the terrain, one that proves nothing."""
-    return ProvedExtreme(unknown, unknown, found.at) if isinstance(found, NoGround) else found
+    return ProvedExtreme(unknown, unknown, bound.at) if isinstance(bound, NoGround) else bound

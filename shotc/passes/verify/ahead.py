@@ -52,7 +52,7 @@ def ahead(flight: JudgedFlight) -> Iterator[Claim]:
     half_angle = flight.mission.rules.look_ahead
     if half_angle is None:
         return
-    between = [span for way in ways(flight.track.phases) if (span := judged(flight, way))]
+    between = [span for interval in ways(flight.track.phases) if (span := judged(flight, interval))]
     yield from _claimed(flight, half_angle, between, None)
     for phase in _filmed(flight.track):
         if why_not(flight.mission, flight.track, phase) is None:
@@ -92,8 +92,8 @@ def _least_off(drone: Drone, track: DroneTrajectory, phase: Phase) -> float:
     t = np.linspace(phase.start, phase.end, SHOT_SAMPLES)
     rate = track.curve.channels(X, Y).derivative()(t)
     moves = np.linalg.norm(rate, axis=1) > SLOW_M_S
-    aside = track.curve(t)[:, CAM_YAW] - np.arctan2(rate[:, 1], rate[:, 0])
-    return float(np.where(moves, least_off_course(drone, aside), 0.0).max())
+    off_course = track.curve(t)[:, CAM_YAW] - np.arctan2(rate[:, 1], rate[:, 0])
+    return float(np.where(moves, least_off_course(drone, off_course), 0.0).max())
 
 
 def _filmed(track: DroneTrajectory) -> list[Phase]:
@@ -118,23 +118,23 @@ def _claimed(
     every = Pieces(
         *(np.concatenate([getattr(part, name) for part in parts]) for name in ("low", "high", "ctrl"))
     )
-    found = sup_off_course(every, SLOW_M_S, gap(half_angle))
-    if found.proven > -np.inf:
-        yield bounded(flight, Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"), shot=shot), found)
+    bound = sup_off_course(every, SLOW_M_S, gap(half_angle))
+    if bound.proven > -np.inf:
+        yield bounded(flight, Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"), shot=shot), bound)
 
 
-def judged(flight: JudgedFlight, way: TransitInterval) -> tuple[float, float] | None:
+def judged(flight: JudgedFlight, interval: TransitInterval) -> tuple[float, float] | None:
     """Return the start and end of the judged part of a transfer; None where the drone does not come
     to rest.
     """
     phases, mission = flight.track.phases, flight.mission
-    before = next((p.shot for p in phases if p.end == way.start), None)
-    start, end = way.start, way.end
+    before = next((p.shot for p in phases if p.end == interval.start), None)
+    start, end = interval.start, interval.end
     breaks = flight.track.curve.breaks
     inside = breaks[(breaks >= start) & (breaks <= end)]
     speed = np.linalg.norm(flight.track.curve.channels(X, Y, Z).derivative()(inside), axis=1)
     rests = inside[speed <= AT_REST_M_S]
-    on_clock = [name is not None and mission.shot(name).ideal is not None for name in (before, way.shot)]
+    on_clock = [name is not None and mission.shot(name).ideal is not None for name in (before, interval.shot)]
     if any(on_clock) and not len(rests):
         return None
     if on_clock[0]:

@@ -58,38 +58,38 @@ class _Place(NamedTuple):
 
 
 def differences(
-    written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = True
+    written: KeyframeIR, reviewed: KeyframeIR, *, same_text: bool = True
 ) -> Iterator[MissionDifference]:
     """Yield the differences between a plan's data and what the mission asks for.
 
     same_text : whether both were lowered from one text, so that all places in it must be equal
     """
     passed = ELSEWHERE_IN_PLANS if same_text else ELSEWHERE_IN_PLANS | ELSEWHERE
-    yield from _walk(written.mission, asked.mission, _Place("", (), passed))
-    yield from _walk(written.shots, asked.shots, _Place("placed shots", ("shots",), passed | {"shot"}))
+    yield from _walk(written.mission, reviewed.mission, _Place("", (), passed))
+    yield from _walk(written.shots, reviewed.shots, _Place("placed shots", ("shots",), passed | {"shot"}))
     if same_text:
-        yield from _origins(written, asked)
+        yield from _origins(written, reviewed)
 
 
-def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[MissionDifference]:
+def source_differences(written: MissionIR, reviewed: MissionIR) -> Iterator[MissionDifference]:
     """Yield where a plan's files or choices are not those that its mission uses."""
     for words, mine, true in (
         (
             "the tables in the plan",
             [n for n, _ in written.source.tables],
-            [n for n, _ in asked.source.tables],
+            [n for n, _ in reviewed.source.tables],
         ),
-        ("the files that the plan links to", written.source.linked, asked.source.linked),
-        ("the drawings in the plan", written.source.drawn, asked.source.drawn),
-        ("the drones that were chosen", written.source.chosen, asked.source.chosen),
+        ("the files that the plan links to", written.source.linked, reviewed.source.linked),
+        ("the drawings in the plan", written.source.drawn, reviewed.source.drawn),
+        ("the drones that were chosen", written.source.chosen, reviewed.source.chosen),
     ):
         if mine != true:
             yield MissionDifference((), f"{words} are not those that the mission uses")
 
 
-def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[MissionDifference]:
+def _origins(written: KeyframeIR, reviewed: KeyframeIR) -> Iterator[MissionDifference]:
     """Yield the first wrong place in the file."""
-    one, other = written.mission.origins, asked.mission.origins
+    one, other = written.mission.origins, reviewed.mission.origins
     for mine, true in ((one.keys, other.keys), (one.values, other.values)):
         for path, span in mine.items():
             if path not in true or true[path] != span:
@@ -98,45 +98,45 @@ def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[MissionDifferen
                 return
 
 
-def _walk(written: Any, asked: Any, at: _Place) -> Iterator[MissionDifference]:
-    if written is asked:
+def _walk(written: Any, reviewed: Any, at: _Place) -> Iterator[MissionDifference]:
+    if written is reviewed:
         return
-    if isinstance(written, float | int) and isinstance(asked, float | int):
-        if not _same(written, asked, at.near):
-            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
-    elif type(written) is not type(asked):
-        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
-    elif names := field_names(asked):
-        near = ITERATED_SHARE if getattr(asked, "framed", False) is True else at.near
-        here = at._replace(path=getattr(asked, "path", at.path), near=near)
+    if isinstance(written, float | int) and isinstance(reviewed, float | int):
+        if not _same(written, reviewed, at.near):
+            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+    elif type(written) is not type(reviewed):
+        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+    elif names := field_names(reviewed):
+        near = ITERATED_SHARE if getattr(reviewed, "framed", False) is True else at.near
+        here = at._replace(path=getattr(reviewed, "path", at.path), near=near)
         for name in names:
             if name not in at.passed:
-                yield from _walk(getattr(written, name), getattr(asked, name), here.field(name))
-    elif isinstance(asked, tuple):
-        yield from _items(written, asked, at)
-    elif written != asked:
-        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
+                yield from _walk(getattr(written, name), getattr(reviewed, name), here.field(name))
+    elif isinstance(reviewed, tuple):
+        yield from _items(written, reviewed, at)
+    elif written != reviewed:
+        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
 
 
-def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
-    named = [_name(item) for item in (*written, *asked)]
+def _items(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
+    named = [_name(item) for item in (*written, *reviewed)]
     if named and all(named):
-        yield from _named(written, asked, at)
-    elif all(isinstance(item, float | int | str) for item in (*written, *asked)):
-        pairs = zip(written, asked, strict=False)
-        if len(written) != len(asked) or not all(_same(one, other, at.near) for one, other in pairs):
-            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
-    elif len(written) != len(asked):
-        yield at.differs(f": the plan has {len(written)}, the mission asks for {len(asked)}")
+        yield from _named(written, reviewed, at)
+    elif all(isinstance(item, float | int | str) for item in (*written, *reviewed)):
+        pairs = zip(written, reviewed, strict=False)
+        if len(written) != len(reviewed) or not all(_same(one, other, at.near) for one, other in pairs):
+            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+    elif len(written) != len(reviewed):
+        yield at.differs(f": the plan has {len(written)}, the mission asks for {len(reviewed)}")
     else:
-        for i, (one, other) in enumerate(zip(written, asked, strict=True), 1):
+        for i, (one, other) in enumerate(zip(written, reviewed, strict=True), 1):
             words = f"{_one_of(at.words)} {i}"
             yield from _walk(one, other, at.item(words, _path(other, at)))
 
 
-def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
+def _named(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
     """Yield differences of elements with names: which exist, their order, and each with its namesake."""
-    mine, true = {_name(item): item for item in written}, {_name(item): item for item in asked}
+    mine, true = {_name(item): item for item in written}, {_name(item): item for item in reviewed}
     for name, item in true.items():
         if name not in mine:
             yield MissionDifference(_path(item, at), f"{at.words}: `{name}` is left out")
@@ -144,7 +144,7 @@ def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
         if name not in true:
             yield at.differs(f": the mission has no `{clip(name)}`")
     if mine.keys() == true.keys():
-        for one, other in zip_longest(written, asked):
+        for one, other in zip_longest(written, reviewed):
             if one is None or other is None or _name(one) != _name(other):
                 yield at.differs(" are in another order, or there twice")
                 break

@@ -113,9 +113,9 @@ def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, lim
 
     def sample(t: Array) -> Array:
         frames = projected(flight.mission, flight.track, target, t)
-        wanted = references(flight.track, shot, target, t)
+        reference = references(flight.track, shot, target, t)
         half = np.tan(flight.track.curve(t)[:, HFOV] / 2)
-        error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
+        error = np.hypot(frames.u - reference[:, 0], frames.v - reference[:, 1])
         return np.column_stack(
             [error, frames.u * frames.depth * half, frames.v * frames.depth * half, frames.depth]
         )
@@ -145,8 +145,8 @@ def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) 
     for column, half in ((1, bound.narrow), (2, bound.narrow / aspect)):
         # The samples' v w f has the w of the width: divided by the aspect it is metres down.
         scale = 1.0 if column == 1 else aspect
-        aside = 0.5 * (np.abs(a[:, column]) + np.abs(b[:, column])) / scale + 0.5 * drift
-        slope = aside / depth
+        lateral = 0.5 * (np.abs(a[:, column]) + np.abs(b[:, column])) / scale + 0.5 * drift
+        slope = lateral / depth
         total += (travel * np.sqrt(1.0 + slope**2) / (depth * half) + slope / half * lens) ** 2
     return np.asarray(np.sqrt(total))
 

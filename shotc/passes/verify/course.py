@@ -75,11 +75,11 @@ def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _looking(flight, placed, t)
 
 
-def _told(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, way: ExpectedPlaces) -> float:
+def _allowance(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, expected: ExpectedPlaces) -> float:
     """Return how far a shot may leave its path, metres: as reported, around obstacles and for its picture."""
-    blocks = in_the_way(flight, way)
+    blocks = in_the_way(flight, expected)
     distances = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
-    far = farthest(flight.mission, {k.target for k in placed.keyframes if k.target is not None}, way)
+    far = farthest(flight.mission, {k.target for k in placed.keyframes if k.target is not None}, expected)
     return min(sum(distances[:2]), sum(blocks.values()) + for_the_picture(flight.mission, far, placed=False))
 
 
@@ -123,7 +123,7 @@ def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR)
     if any(k.placed for k in keyframes):
         yield from _swing(flight, placed, t)
         return
-    reported = _told(flight, ir, placed, _chords(at))
+    reported = _allowance(flight, ir, placed, _chords(at))
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
     k = int(away.argmax())
     worst = WorstValue(float(away[k]), float(t[k]), "exact")
@@ -227,10 +227,10 @@ def _looking(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Cla
     if flight.mission.rules.look_ahead is not None and looks_along(shot):
         yaw = _off_course(flight, (yaw, t), flight.mission.rules.look_ahead, (t[0], t[-1]))
     pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
-    aside = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
-    yield _largest(flight, ("direction off its keyframes", TURNED_RAD, "rad"), shot, (aside, t))
-    wanted = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
-    turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - wanted)
+    off_aim = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
+    yield _largest(flight, ("direction off its keyframes", TURNED_RAD, "rad"), shot, (off_aim, t))
+    turns = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
+    turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - turns)
     yield _largest(flight, ("turn off its keyframes", AROUND_RAD, "rad"), shot, (np.nan_to_num(turned), t))
 
 
@@ -248,9 +248,9 @@ def _off_course(
     off, t = at
     curve = flight.track.curve
     before, after = (np.clip(t + d, *span) for d in (-BESIDE_S, BESIDE_S))
-    way = curve(after)[:, :2] - curve(before)[:, :2]
-    aside = wrapped(curve(t)[:, CAM_YAW] - np.arctan2(way[:, 1], way[:, 0]))
-    least = np.minimum(np.abs(off), np.abs(aside))
+    direction = curve(after)[:, :2] - curve(before)[:, :2]
+    off_course = wrapped(curve(t)[:, CAM_YAW] - np.arctan2(direction[:, 1], direction[:, 0]))
+    least = np.minimum(np.abs(off), np.abs(off_course))
     return np.asarray(np.maximum(least - half_angle, 0.0))
 
 
@@ -260,5 +260,5 @@ def _largest(
     value, t = values
     k = int(value.argmax())
     name, limit, unit = what
-    wanted = Limit(name, limit, unit, shot.path, shot=shot.id)
-    return claim(flight, wanted, WorstValue(float(value[k]), float(t[k]), "exact"))
+    bound = Limit(name, limit, unit, shot.path, shot=shot.id)
+    return claim(flight, bound, WorstValue(float(value[k]), float(t[k]), "exact"))

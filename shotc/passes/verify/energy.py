@@ -36,8 +36,10 @@ def energy(flight: JudgedFlight) -> Iterator[Claim]:
     yield claim(flight, limit, WorstValue(whole / J_PER_WH))
     for phase in flight.track.phases:
         if phase.shot is not None:
-            told = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
-            yield claim(flight, told, WorstValue(taken(flight, power, phase.start, phase.end) / J_PER_WH))
+            energy_limit = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
+            yield claim(
+                flight, energy_limit, WorstValue(taken(flight, power, phase.start, phase.end) / J_PER_WH)
+            )
 
 
 def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:

@@ -51,13 +51,13 @@ class ExpectedPlaces(NamedTuple):
     times: Array | None
 
 
-def in_the_way(flight: JudgedFlight, way: ExpectedPlaces, *, placed: bool = False) -> dict[str, float]:
+def in_the_way(flight: JudgedFlight, course: ExpectedPlaces, *, placed: bool = False) -> dict[str, float]:
     """Return what blocks a course, named as in causes, and the length of the detour around each, metres.
 
     placed : whether the author gave the place, which then is left only for moving obstacles
     """
-    stands = () if placed else (*_zones(flight, way), *_meshes(flight, way))
-    detours = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
+    stands = () if placed else (*_zones(flight, course), *_meshes(flight, course))
+    detours = (*stands, *_targets(flight, course, placed=placed), *_drones(flight, course))
     return {name: detour for name, detour in detours if detour > 0.0}
 
 
@@ -87,14 +87,14 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
     return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED) * distance
 
 
-def for_its_limits(flight: JudgedFlight, way: ExpectedPlaces, smoothing: float) -> float:
+def for_its_limits(flight: JudgedFlight, course: ExpectedPlaces, smoothing: float) -> float:
     """Return how far a drone falls behind a course, metres: where that is too fast, and while it stops.
 
     smoothing : seconds; the time beyond the normal one adds a distance at the same speed
     """
-    assert way.times is not None
-    limits, steps = flight.drone.limits, np.diff(way.times)
-    rates = np.diff(way.places, axis=0) / steps[:, None]
+    assert course.times is not None
+    limits, steps = flight.drone.limits, np.diff(course.times)
+    rates = np.diff(course.places, axis=0) / steps[:, None]
     level = np.hypot(rates[:, 0], rates[:, 1])
     rise = np.maximum(rates[:, 2] - limits.climb, -rates[:, 2] - limits.descent)
     airspeed = np.hypot(rates[:, 0] - limits.wind[0], rates[:, 1] - limits.wind[1])
@@ -105,12 +105,12 @@ def for_its_limits(flight: JudgedFlight, way: ExpectedPlaces, smoothing: float) 
     return float(behind + stops + fastest * max(0.0, smoothing - NORMAL_S))
 
 
-def farthest(mission: MissionIR, names: Iterable[str], way: ExpectedPlaces) -> float:
+def farthest(mission: MissionIR, names: Iterable[str], course: ExpectedPlaces) -> float:
     """Return the largest distance of a course from the nearest of some targets, metres."""
     targets = [mission.target(name) for name in names]
     if not targets:
         return UNWATCHED
-    away = [np.linalg.norm(way.places - _centre(target, way.times), axis=1) for target in targets]
+    away = [np.linalg.norm(course.places - _centre(target, course.times), axis=1) for target in targets]
     return float(np.min(away, axis=0).max())
 
 
@@ -119,27 +119,27 @@ def _centre(target: Target, times: Array | None) -> Array:
     return centre if times is None or target.track is None else centre + moved(target, times)
 
 
-def _zones(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
+def _zones(flight: JudgedFlight, course: ExpectedPlaces) -> Iterator[tuple[str, float]]:
     mission, body = flight.mission, flight.drone.radius + NEAR_M
     for zone in mission.zones:
-        apart = signed_distance(zone.solid, way.places)
+        apart = signed_distance(zone.solid, course.places)
         if zone.keep == "in":
             yield f"zone {zone.name}", float(apart.max()) + body
         elif apart.min() < body:
             yield f"zone {zone.name}", _size(zone.solid) + 2.0 * body
-    yield "ground", mission.rules.ground_clearance + body - float(way.places[:, 2].min())
+    yield "ground", mission.rules.ground_clearance + body - float(course.places[:, 2].min())
 
 
-def _meshes(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
+def _meshes(flight: JudgedFlight, course: ExpectedPlaces) -> Iterator[tuple[str, float]]:
     """Yield the detour around each mesh: above its near parts, or around the widest of them."""
     body = flight.mission.rules.beside_obstacle(flight.drone.radius)
     for mesh in flight.mission.meshes:
         near = body + mesh.spacing + NEAR_M
-        found = nearest(mesh.surface, way.places)
-        met = (found.distance < near) | mesh.holds(way.places)
+        closest_points = nearest(mesh.surface, course.places)
+        met = (closest_points.distance < near) | mesh.holds(course.places)
         if met.any():
-            low, high = _boxes(mesh, np.unique(mesh.part[mesh.surface.source[found.triangle[met]]]))
-            over = float(high[:, 2].max() - way.places[:, 2].min())
+            low, high = _boxes(mesh, np.unique(mesh.part[mesh.surface.source[closest_points.triangle[met]]]))
+            over = float(high[:, 2].max() - course.places[:, 2].min())
             yield str(mesh_owner(mesh)), max(over, _widest(low - near, high + near)) + 2.0 * near
 
 
@@ -158,22 +158,22 @@ def _widest(low: Array, high: Array) -> float:
     return float(np.linalg.norm(spans, axis=1).max())
 
 
-def _targets(flight: JudgedFlight, way: ExpectedPlaces, *, placed: bool) -> Iterator[tuple[str, float]]:
+def _targets(flight: JudgedFlight, course: ExpectedPlaces, *, placed: bool) -> Iterator[tuple[str, float]]:
     near = flight.mission.rules.target_clearance + flight.drone.radius + NEAR_M
     for target in flight.mission.targets:
-        if (placed and target.track is None) or (way.times is None and target.track is not None):
+        if (placed and target.track is None) or (course.times is None and target.track is not None):
             continue
-        beside = way.places - (_centre(target, way.times) - np.array(target.centre))
+        beside = course.places - (_centre(target, course.times) - np.array(target.centre))
         if signed_distance(target.kept_clear, beside).min() < near:
             yield f"target {target.name}", max(2.0 * target.radius, target.height) + 2.0 * near
 
 
-def _drones(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
-    if way.times is None:
+def _drones(flight: JudgedFlight, course: ExpectedPlaces) -> Iterator[tuple[str, float]]:
+    if course.times is None:
         return
     near = flight.mission.rules.separation + NEAR_M
     for other in flight.others:
-        if np.linalg.norm(flying(other.curve, way.times) - way.places, axis=1).min() < near:
+        if np.linalg.norm(flying(other.curve, course.times) - course.places, axis=1).min() < near:
             yield f"drone {other.drone}", 2.0 * near
 
 

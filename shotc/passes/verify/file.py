@@ -66,33 +66,37 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
     if read.trajectory is None:
         return FileVerdict(None, (), read.diagnostics)
     written = read.trajectory.keyframes
-    asked = lower(written.mission.source, written.mission.origins.file)
-    if asked.keyframes is None:
-        return FileVerdict(None, (), _not_lowered(read, asked, name), asked.file, written)
-    other = _of_another_mission(read, asked.keyframes)
+    lowered = lower(written.mission.source, written.mission.origins.file)
+    if lowered.keyframes is None:
+        return FileVerdict(None, (), _not_lowered(read, lowered, name), lowered.file, written)
+    other = _of_another_mission(read, lowered.keyframes)
     # A plan of another mission is judged by its own data: its faults may explain the change.
-    ir = read.trajectory if other else replace(read.trajectory, keyframes=asked.keyframes)
+    ir = read.trajectory if other else replace(read.trajectory, keyframes=lowered.keyframes)
     verdict = judge(ir, ctx)
     diagnostics = [*other, *verdict.diagnostics]
     if verdict.certificate:
         diagnostics += _against_the_file(read, verdict.certificate, name)
     verified = VerifiedIR(ir, verdict.certificate, verdict.covered)
     plan = None if has_errors(diagnostics) else verified
-    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file, written, asked.keyframes)
+    return FileVerdict(
+        plan, verdict.certificate, tuple(diagnostics), lowered.file, written, lowered.keyframes
+    )
 
 
-def against(written: KeyframeIR, lowered: KeyframeIR | None, asked: Lowered) -> list[Diagnostic]:
+def against(written: KeyframeIR, lowered: KeyframeIR | None, reviewed: Lowered) -> list[Diagnostic]:
     """Return the differences between a plan and a mission that was lowered from a separate file.
 
     written, lowered : as of ``FileVerdict``
     """
-    if asked.keyframes is None:
+    if reviewed.keyframes is None:
         text = "this mission cannot be lowered, so no plan can be held to it"
-        fault = Diagnostic("V043", text, (Label(asked.file.name, WHOLE_FILE),), help="mend its faults first")
-        return [fault, *asked.diagnostics]
-    source, now = written.mission.source, asked.keyframes.mission.source
+        fault = Diagnostic(
+            "V043", text, (Label(reviewed.file.name, WHOLE_FILE),), help="mend its faults first"
+        )
+        return [fault, *reviewed.diagnostics]
+    source, now = written.mission.source, reviewed.keyframes.mission.source
     diagnostics = [
-        *differences(written, asked.keyframes, same_text=False),
+        *differences(written, reviewed.keyframes, same_text=False),
         *(
             MissionDifference((), f"`{name}` is another file than the plan draws")
             for name in _changed(source.drawn, now.drawn)
@@ -101,9 +105,9 @@ def against(written: KeyframeIR, lowered: KeyframeIR | None, asked: Lowered) -> 
             MissionDifference((), f"`{name}` is another file than the plan was made with")
             for name in _changed(source.linked, now.linked)
         ),
-        *([] if lowered is None else _other_world(lowered.mission, asked.keyframes.mission)),
+        *([] if lowered is None else _other_world(lowered.mission, reviewed.keyframes.mission)),
     ]
-    return told(diagnostics, asked.keyframes, "V043", ())
+    return diagnostics_of(diagnostics, reviewed.keyframes, "V043", ())
 
 
 def _other_world(mine: MissionIR, true: MissionIR) -> Iterator[MissionDifference]:
@@ -131,7 +135,7 @@ def _changed(mine: Digests, true: Digests) -> list[str]:
     return [name for name, digest in true if before.get(name, digest) != digest]
 
 
-def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:
+def _not_lowered(read: ReadPlan, lowered: Lowered, name: str) -> tuple[Diagnostic, ...]:
     """Return why the mission in a plan cannot be lowered, followed by its own faults."""
     label = (Label(name, WHOLE_FILE),)
     assert read.trajectory is not None
@@ -141,7 +145,7 @@ def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic,
     text = "the mission in the plan cannot be lowered, so nothing tells what the plan is to do"
     notes = ("the faults of that mission follow", *_writer(read))
     help_ = f"{REPLAN}; where a kind of shot is unknown, install the package that it comes from"
-    return (Diagnostic("V042", text, label, notes, help_), *asked.diagnostics)
+    return (Diagnostic("V042", text, label, notes, help_), *lowered.diagnostics)
 
 
 def _writer(read: ReadPlan) -> tuple[str, ...]:
@@ -150,25 +154,25 @@ def _writer(read: ReadPlan) -> tuple[str, ...]:
     return (f"the file was written by shotc {clip(read.tool)}, this is {__version__}",)
 
 
-def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
+def _of_another_mission(read: ReadPlan, reviewed: KeyframeIR) -> list[Diagnostic]:
     """Return the differences between the plan's data of its mission and the mission."""
     assert read.trajectory is not None
     written = read.trajectory.keyframes
-    differing = [*differences(written, asked), *source_differences(written.mission, asked.mission)]
-    return told(differing, asked, "V041", (*_writer(read),))
+    differing = [*differences(written, reviewed), *source_differences(written.mission, reviewed.mission)]
+    return diagnostics_of(differing, reviewed, "V041", (*_writer(read),))
 
 
-def told(
-    differing: Sequence[MissionDifference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
+def diagnostics_of(
+    differing: Sequence[MissionDifference], reviewed: KeyframeIR, code: str, notes: tuple[str, ...]
 ) -> list[Diagnostic]:
     """Return differences as diagnostics on the mission's lines: the first ones each, the others together."""
     shown = [
-        Diagnostic(code, d.text, (asked.mission.origins.value(d.path),), notes, REPLAN)
+        Diagnostic(code, d.text, (reviewed.mission.origins.value(d.path),), notes, REPLAN)
         for d in differing[:MOST_REPORTED]
     ]
     if len(differing) > MOST_REPORTED:
         more = f"and {len(differing) - MOST_REPORTED} more differences between the plan and its mission"
-        shown.append(Diagnostic(code, more, (asked.mission.origins.value(()),), help=REPLAN))
+        shown.append(Diagnostic(code, more, (reviewed.mission.origins.value(()),), help=REPLAN))
     return shown
 
 

@@ -16,7 +16,7 @@ def not_standing(ir: TrajectoryIR) -> Iterator[Diagnostic]:
     """Yield the shots that film a picture before it stands, or after it."""
     if ir.fleets:
         flown = [phase for track in ir.drones for phase in track.phases if phase.shot is not None]
-        yield from (found for phase in flown if (found := _astray(ir, phase)) is not None)
+        yield from (fault for phase in flown if (fault := _astray(ir, phase)) is not None)
 
 
 def _astray(ir: TrajectoryIR, phase: Phase) -> Diagnostic | None:

@@ -83,26 +83,26 @@ def view_of(flight: JudgedFlight, placed: PlacedShot, target: str, phase: Phase)
     if not len(times):
         return None
     frames = projected(flight.mission, flight.track, target, times)
-    wanted = references(flight.track, shot.id, target, times)
-    error = np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1])
-    error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
+    reference = references(flight.track, shot.id, target, times)
+    error = np.hypot(frames.u - reference[:, 0], frames.v - reference[:, 1])
+    error = np.where(np.isnan(frames.u) & ~np.isnan(reference[:, 0]), inf, error)
     eyes = flight.track.curve(times)[:, :3]
     covered = coverage(flight.mission, flight.others, target, eyes, times).share
     return FramingSamples(shot, target, times, frames, error, covered)
 
 
 def _in_frame(flight: JudgedFlight, view: FramingSamples) -> Claim:
-    asked = view.shot.promise.in_frame
+    promised = view.shot.promise.in_frame
     share = float(view.frames.in_frame.mean())
     k = int(np.argmin(view.frames.margin))
-    path = (*view.shot.path, "require", "in_frame") if asked is not None else view.shot.path
+    path = (*view.shot.path, "require", "in_frame") if promised is not None else view.shot.path
     limit = Limit(
         f"{view.target} in frame",
-        1.0 if asked is None else asked,
+        1.0 if promised is None else promised,
         "of samples",
         path,
         upper=False,
-        hard=asked is not None,
+        hard=promised is not None,
         shot=view.shot.id,
     )
     method: Method = "sampled"
@@ -112,42 +112,42 @@ def _in_frame(flight: JudgedFlight, view: FramingSamples) -> Claim:
 
 
 def _screen_error(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]:
-    asked = view.shot.promise.screen_error
+    promised = view.shot.promise.screen_error
     known = ~np.isnan(view.error)
     if not known.any():
         return
     error = np.where(known, view.error, -inf)
     k = int(np.argmax(error))
-    claim = _sampled(flight, view, ("screen error", "screen_error", asked), (float(error[k]), k))
-    if asked is not None and claim.holds:
+    claim = _sampled(flight, view, ("screen error", "screen_error", promised), (float(error[k]), k))
+    if promised is not None and claim.holds:
         times = view.times[known]
-        if errors_close(flight, view.shot.id, view.target, times, asked):
+        if errors_close(flight, view.shot.id, view.target, times, promised):
             claim = replace(claim, method="bounded")
     yield claim
 
 
 def _size(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]:
-    asked = view.shot.promise.size
+    promised = view.shot.promise.size
     size = view.frames.size
     for name, pick, unseen in (("smallest", np.argmin, -inf), ("largest", np.argmax, inf)):
         known = np.where(np.isnan(size), unseen, size)
         k = int(pick(known))
-        bound = None if asked is None else asked[name == "largest"]
+        bound = None if promised is None else promised[name == "largest"]
         yield _sampled(flight, view, (f"size {name}", "size", bound), (float(known[k]), k))
 
 
 def _sampled(
     flight: JudgedFlight, view: FramingSamples, what: tuple[str, str, float | None], worst: tuple[float, int]
 ) -> Claim:
-    name, key, asked = what
+    name, key, promised = what
     upper = name != "size smallest"
     limit = Limit(
         f"{view.target} {name}",
-        (inf if upper else -inf) if asked is None else asked,
+        (inf if upper else -inf) if promised is None else promised,
         "of the frame" if key == "size" else "of half a frame",
-        view.shot.path if asked is None else (*view.shot.path, "require", key),
+        view.shot.path if promised is None else (*view.shot.path, "require", key),
         upper=upper,
-        hard=asked is not None,
+        hard=promised is not None,
         shot=view.shot.id,
     )
     return claim(flight, limit, WorstValue(worst[0], float(view.times[worst[1]]), "sampled"))

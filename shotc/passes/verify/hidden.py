@@ -29,14 +29,14 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     if not len(times):
         return
     others, eyes = others_of(bodies(ir), track.drone), track.curve(times)[:, :3]
-    named, told = parts_before(mission, target), list[tuple[str, Array]]()
+    named, shares = parts_before(mission, target), list[tuple[str, Array]]()
     for what, share in coverage(mission, others, target, eyes, times).by:
         parts = _by_name(mission, named[what], target, (eyes, times, share)) if what in named else []
         if len(parts) != 1:
             sort, _, name = what.partition(" ")
-            told.append((f"{sort} `{name}`", share))
-        told += parts[:MOST_NAMED]
-    for what, share in sorted(told, key=lambda by: -by[1].sum()):
+            shares.append((f"{sort} `{name}`", share))
+        shares += parts[:MOST_NAMED]
+    for what, share in sorted(shares, key=lambda by: -by[1].sum()):
         if share.any():
             often = float((share > 1.0 - HALF_SHARE).mean())
             most = f"{what} hides up to {100 * share.max():.3g} % of it"
@@ -54,9 +54,9 @@ def _by_name(
     hides, owner = share > 0.0, mesh_owner(of.mesh)
     if not hides.any():
         return []
-    found = []
+    shares = []
     for name, its in covered_by_parts(mission, of, target, eyes[hides], times[hides]).by:
         every = np.zeros(len(share))
         every[hides] = its
-        found.append((owner._replace(name=name).words, every))
-    return sorted(found, key=lambda by: -by[1].sum())
+        shares.append((owner._replace(name=name).words, every))
+    return sorted(shares, key=lambda by: -by[1].sum())

@@ -36,8 +36,8 @@ def kept_out(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
     if turn:
         yield turn
     lack = measure(claim.limit - claim.worst, claim.unit)
-    aside = f"{lack} farther off the axis" if claim.unit == "rad" else f"{lack} farther aside"
-    yield f"film from where `{other.drone}` is {aside}"
+    farther = f"{lack} farther off the axis" if claim.unit == "rad" else f"{lack} farther aside"
+    yield f"film from where `{other.drone}` is {farther}"
 
 
 def _pad_is_seen(sight: CameraAndBody, times: Array, claim: Claim) -> bool:
@@ -76,9 +76,9 @@ def _turned(sight: CameraAndBody, times: Array, phase: Phase) -> str:
     # When the camera turns right, the picture moves left, and vice versa.
     right, left = float((edge - off).max()), float((edge + off).max())
     by = float(at_least(degrees(min(right, left)) + BEYOND_DEG, 0))
-    way = "right" if right <= left else "left"
-    text = f"turn the camera of `{shot.id}` {by:.0f} deg to the {way}"
+    direction = "right" if right <= left else "left"
+    text = f"turn the camera of `{shot.id}` {by:.0f} deg to the {direction}"
     if len(shot.keyframes) > 1:
         return text
-    heading = 90.0 - degrees(float(film[0, CAM_YAW])) + (by if way == "right" else -by)
+    heading = 90.0 - degrees(float(film[0, CAM_YAW])) + (by if direction == "right" else -by)
     return f"{text}, by `heading: {round(heading) % 360} deg`"

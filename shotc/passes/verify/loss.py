@@ -112,8 +112,8 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
     p: Vec3 = (x, y, z)
     rules = mission.rules
     for zone in mission.zones:
-        room = distance(zone.solid, p) if zone.keep == "out" else depth(zone.solid, p)
-        if room < drone.radius + AT_EDGE_M:
+        clearance = distance(zone.solid, p) if zone.keep == "out" else depth(zone.solid, p)
+        if clearance < drone.radius + AT_EDGE_M:
             yield f"zone `{zone.name}`"
     for target in mission.targets:
         away = moved(target, np.array([time]))[0]

@@ -30,12 +30,12 @@ def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
         return None
     mission, pair = ir.keyframes.mission, (tracks[claim.subject], other)
     phases = [filming(track, claim.time) for track in pair]
-    found, least = told_apart(claim.worst, claim.limit, claim.unit)
+    reached, least = told_apart(claim.worst, claim.limit, claim.unit)
     shots = [f"`{phase.shot}`" for phase in phases if phase is not None]
     where = f", for shot{'s' if len(shots) > 1 else ''} {' and '.join(shots)}" if shots else ""
     return Diagnostic(
         "V022",
-        f"{pair[0].drone} and {pair[1].drone} come within {found} of each other{where}; "
+        f"{pair[0].drone} and {pair[1].drone} come within {reached} of each other{where}; "
         f"the separation is {least}",
         tuple(_labels(mission, pair, phases, least)),
         (*_notes(ir, claim, pair), "proved over continuous time"),

@@ -66,8 +66,8 @@ def _thrust(flight: JudgedFlight, acceleration: Pieces) -> Iterator[Claim]:
         ("thrust_to_weight", thrust_to_weight, limits.thrust_to_weight, "times the weight"),
     ):
         if limit < inf:
-            wanted = Limit(key.replace("_", " "), limit, unit, _path(flight, "limits", key))
-            yield bounded(flight, wanted, sup_convex(acceleration, value, gap(limit)))
+            bound = Limit(key.replace("_", " "), limit, unit, _path(flight, "limits", key))
+            yield bounded(flight, bound, sup_convex(acceleration, value, gap(limit)))
 
 
 def _body_yaw(flight: JudgedFlight, yaw: Pieces) -> Iterator[Claim]:
@@ -86,8 +86,8 @@ def _gimbal(flight: JudgedFlight, axis: str, angle: Pieces) -> Iterator[Claim]:
         ("rate", rate, gimbal.rate, "rad/s"),
         ("acceleration", rate.derivative(), gimbal.acceleration, "rad/s^2"),
     ):
-        wanted = Limit(f"gimbal {axis} {name}", limit, unit, _path(flight, "gimbal", name))
-        yield bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
+        bound = Limit(f"gimbal {axis} {name}", limit, unit, _path(flight, "gimbal", name))
+        yield bounded(flight, bound, sup_convex(order, norm, gap(limit)))
 
 
 def _zoom(flight: JudgedFlight, hfov: Pieces) -> Iterator[Claim]:
@@ -127,8 +127,8 @@ def _range(
 
 def _below(flight: JudgedFlight, key: str, order: Pieces, limit: float, unit: str) -> Claim:
     name = f"body {key}".replace("_", " ") if key.startswith("yaw") else key
-    wanted = Limit(name, limit, unit, _path(flight, "limits", key))
-    return bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
+    bound = Limit(name, limit, unit, _path(flight, "limits", key))
+    return bounded(flight, bound, sup_convex(order, norm, gap(limit)))
 
 
 def _path(flight: JudgedFlight, *keys: str) -> tuple[str | int, ...]:

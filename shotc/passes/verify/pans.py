@@ -53,7 +53,7 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
                 continue
             turn = fastest(track, phase)
             if turn is not None and turn.pace * NEARLY_SHARE > 1.0:
-                yield _told(mission, track, phase, turn)
+                yield _diagnostic(mission, track, phase, turn)
 
 
 def fastest(track: DroneTrajectory, phase: Phase) -> FastestTurn | None:
@@ -113,7 +113,7 @@ def _enough(track: DroneTrajectory, phase: Phase, pan: FastestTurn, free: bool) 
     return max(longer, PEAK_RATIO * turned * slowest(pan.followed))
 
 
-def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: FastestTurn) -> Diagnostic:
+def _diagnostic(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: FastestTurn) -> Diagnostic:
     shot = mission.shot(phase.shot)
     help_ = "film it from farther away, or with a wider field of view"
     if shot.ideal is None:

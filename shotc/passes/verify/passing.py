@@ -64,7 +64,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
         for one in (p for p in passes if p.needs - p.has > WORTH_SHARE * p.needs):
             soft.setdefault((claim.subject, one.way), []).append((claim, one))
     for together in soft.values():
-        yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
+        yield _diagnostic(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
 
 
 def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
@@ -75,15 +75,15 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
     radius = mission.drone(track.drone).radius
     kind, _, own = name.partition(" ")
     passes = []
-    for way in ways(track.phases):
-        bound = on_way((solid, curve), claim.limit + radius, way)
+    for interval in ways(track.phases):
+        bound = on_way((solid, curve), claim.limit + radius, interval)
         if bound.proven - radius >= claim.limit - slack(claim.limit):
             continue
         x, y, z = (float(c) for c in curve(bound.at))
-        needs = taper_of(solid, curve, claim.limit + radius, way).needs(np.array([x, y, z]))
-        least = inf_distance(cut(curve, way.start, way.end), solid, gap(radius))
+        needs = taper_of(solid, curve, claim.limit + radius, interval).needs(np.array([x, y, z]))
+        least = inf_distance(cut(curve, interval.start, interval.end), solid, gap(radius))
         has = distance(solid, (x, y, z))
-        passed = ClosestPass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
+        passed = ClosestPass(f"{kind} `{own}`", path, interval, bound.at, has - radius, float(needs) - radius)
         passed = passed._replace(least=least.proven - radius, counts_from=counts_from)
         passes.append((bound.proven, passed))
     return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
@@ -108,7 +108,7 @@ def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
     return _Named(zone.solid, zone.path, curve)
 
 
-def _told(ir: TrajectoryIR, together: list[tuple[Claim, ClosestPass]]) -> Diagnostic:
+def _diagnostic(ir: TrajectoryIR, together: list[tuple[Claim, ClosestPass]]) -> Diagnostic:
     claim, worst = together[0]
     message = f"{claim.subject} passes {_near(claim, worst)}"
     notes = [_when(claim, worst), *(f"and {_near(c, p)}; {_when(c, p)}" for c, p in together[1:])]
@@ -150,8 +150,8 @@ def _kept(claim: Claim) -> str:
     return "are required" if claim.hard else "are the default where there is room"
 
 
-def _where(way: TransitInterval) -> str:
-    return "on the way home" if way.shot is None else f"on the way to shot `{way.shot}`"
+def _where(interval: TransitInterval) -> str:
+    return "on the way home" if interval.shot is None else f"on the way to shot `{interval.shot}`"
 
 
 def _when(claim: Claim, passed: ClosestPass) -> str:

@@ -47,21 +47,21 @@ def broken_promise(claim: Claim, code: str) -> str:
     shot = f"shot `{claim.shot}`"
     if not isfinite(claim.worst):
         return f"{target} in {shot}: {_UNSEEN[code]}"
-    reached, asked = told_apart(claim.worst, claim.limit, claim.unit if claim.unit in SHARES else "")
+    reached, promised = told_apart(claim.worst, claim.limit, claim.unit if claim.unit in SHARES else "")
     if code == "V019":
-        return f"{target} is whole in {reached} of the frames of {shot}, {asked} is promised"
+        return f"{target} is whole in {reached} of the frames of {shot}, {promised} is promised"
     side = "most" if claim.upper else "least"
     if code in OUTLINES:
         frame = "the last" if claim.constraint.endswith(AT_LAST) else "the first"
         frame = "a" if code == "V028" else frame
         free = f"{reached} of the outline of {target} is free in {frame} frame of {shot}"
-        return f"{free}, {asked} is promised at {side}"
+        return f"{free}, {promised} is promised at {side}"
     if code == "V020":
         return (
             f"{target} is {reached} of half a frame off its place on screen in {shot}, "
-            f"{asked} is promised at {side}"
+            f"{promised} is promised at {side}"
         )
-    return f"{target} fills {reached} of the frame's height in {shot}, {asked} is promised at {side}"
+    return f"{target} fills {reached} of the frame's height in {shot}, {promised} is promised at {side}"
 
 
 def target_of(claim: Claim, code: str) -> str:

@@ -82,8 +82,8 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         missing += float((~framed(flight.track, shot.id, subject.target, t)).sum())
         if subject.reference is None:
             continue
-        wanted = np.array([subject.asked(float(u) - phase.start).place for u in t], dtype=np.float64)
-        away = np.linalg.norm(references(flight.track, shot.id, subject.target, t) - wanted, axis=1)
+        reference = np.array([subject.asked(float(u) - phase.start).place for u in t], dtype=np.float64)
+        away = np.linalg.norm(references(flight.track, shot.id, subject.target, t) - reference, axis=1)
         away = np.where(np.isnan(away), np.inf, away)
         k = int(np.argmax(away))
         if away[k] > off:
@@ -92,8 +92,8 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         ("frames without their target", 0.0, missing, ""),
         ("reference off its composition", OFF_LINE_HALF_FRAMES, off, "of half a frame"),
     ):
-        found = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
-        yield claim(flight, found, WorstValue(worst, when, "sampled"))
+        bound = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
+        yield claim(flight, bound, WorstValue(worst, when, "sampled"))
 
 
 def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
@@ -145,10 +145,10 @@ def _off(
 ) -> tuple[float, float]:
     t, a, b = leg
     first, second = np.array(a.reference), np.array(b.reference)
-    wanted = references(flight.track, shot, str(a.target), t)
-    off = _from_line(wanted, first, second)
-    off[0] = np.hypot(*(wanted[0] - first))
-    off[-1] = np.hypot(*(wanted[-1] - second))
+    reference = references(flight.track, shot, str(a.target), t)
+    off = _from_line(reference, first, second)
+    off[0] = np.hypot(*(reference[0] - first))
+    off[-1] = np.hypot(*(reference[-1] - second))
     off = np.where(np.isnan(off), np.inf, off)
     k = int(np.argmax(off))
     return float(off[k]), float(t[k])

@@ -186,8 +186,8 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
         message = f"{_who(claim)}: {state_of(claim, rule.code)}"
-        told = [wind_note(mission, claim), energy_note(claim, certificate)]
-        notes += filter(None, [*told, *nearest_part(mission, claim)])
+        causes = [wind_note(mission, claim), energy_note(claim, certificate)]
+        notes += filter(None, [*causes, *nearest_part(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
     limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
@@ -217,10 +217,12 @@ def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim
     if not isinstance(shot, Shot):
         return False
     if code != "V030":
-        told = code == "V031" and _mostly_hidden(claim, claims)
-        return told or HIDDEN in shot.allow
-    asked = next((s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size)
-    return asked is not None and asked > 1.0
+        on_purpose = code == "V031" and _mostly_hidden(claim, claims)
+        return on_purpose or HIDDEN in shot.allow
+    promised = next(
+        (s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size
+    )
+    return promised is not None and promised > 1.0
 
 
 def _mostly_hidden(claim: Claim, claims: tuple[Claim, ...]) -> bool:

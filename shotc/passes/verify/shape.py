@@ -114,8 +114,8 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
         yield f"it names shots that the mission does not have: {', '.join(sorted(unknown))}"
     if any((p.name == "shot") != (p.shot is not None) for p in phases):
         yield "a phase is a shot without a name, or has one without being a shot"
-    wanted = (f.reference for f in track.framing if f.reference is not None)
-    if any(joint_steps(reference, 0).sum(axis=0).max() > LIMIT_TOLERANCE for reference in wanted):
+    references = (f.reference for f in track.framing if f.reference is not None)
+    if any(joint_steps(reference, 0).sum(axis=0).max() > LIMIT_TOLERANCE for reference in references):
         yield "what is wanted of a target on screen jumps"
 
 

@@ -44,18 +44,18 @@ def sharp(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
     if optics is None:
         return
     for view in shot.views:
-        found = sharpness(flight.mission, flight.track, view.shot.id, view.target, view.times)
+        sharpness_of_view = sharpness(flight.mission, flight.track, view.shot.id, view.target, view.times)
         if optics.aperture is not None:
             path = (*flight.drone.path, "camera", "aperture")
             limit = Limit(
                 f"{view.target}{DISC}", 1e3 * optics.circle, "mm", path, hard=False, shot=view.shot.id
             )
-            yield _claimed(flight, view, limit, 1e3 * found.disc)
+            yield _claimed(flight, view, limit, 1e3 * sharpness_of_view.disc)
         if optics.shutter is not None:
             path = (*flight.drone.path, "camera", "shutter")
             for name, most, values in (
-                (MOTION, most_motion(optics), found.motion),
-                (BACKGROUND, inf, found.background),
+                (MOTION, most_motion(optics), sharpness_of_view.motion),
+                (BACKGROUND, inf, sharpness_of_view.background),
             ):
                 limit = Limit(f"{view.target}{name}", most, "px", path, hard=False, shot=view.shot.id)
                 yield _claimed(flight, view, limit, values)
@@ -90,9 +90,9 @@ def _soft(ir: TrajectoryIR, each: Claim) -> Diagnostic:
     track = next(t for t in ir.drones if t.drone == each.subject)
     then = sharpness(mission, track, each.shot, target, np.array([time]))
     focus, near, far = (float(a[0]) for a in (then.focus, then.near, then.far))
-    told = "behind the camera, or nothing is in focus"
+    state = "behind the camera, or nothing is in focus"
     if isfinite(each.worst):
-        told = f"shown as discs of up to {at_least(each.worst, 3)} mm, {each.limit:.3g} mm counts as sharp"
+        state = f"shown as discs of up to {at_least(each.worst, 3)} mm, {each.limit:.3g} mm counts as sharp"
     reach = "infinity" if far == inf else f"{far:.1f} m"
     width = (
         f"{1e3 * optics.width:.3g} mm wide{'' if optics.sensor else ' (taken for it; `sensor` says another)'}"
@@ -102,7 +102,7 @@ def _soft(ir: TrajectoryIR, each: Claim) -> Diagnostic:
         f"{target} is soft in shot `{each.shot}`",
         (mission.origins.key(mission.shot(each.shot).path),),
         (
-            f"worst at t = {time:.3f} s: its points are {told}",
+            f"worst at t = {time:.3f} s: its points are {state}",
             f"at f/{optics.aperture:g}, focused at {focus:.1f} m, it is sharp from {near:.1f} m to {reach};"
             f" the sensor is {width}",
         ),

@@ -83,12 +83,12 @@ def _keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterat
         if rests or len(placed.keyframes) == 1:
             end = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
             yield _still(flight, keyframe, (time, end), (placed.shot, index, phase))
-    for name, unit, limit, found in (
+    for name, unit, limit, errors in (
         ("distance from keyframes", "m", ON_PLACE, met),
         ("delay of keyframes", "s", ON_TIME_S, late),
     ):
-        if found:
-            worst, keyframe = max(found, key=lambda pair: pair[0].value)
+        if errors:
+            worst, keyframe = max(errors, key=lambda pair: pair[0].value)
             yield claim(flight, Limit(name, limit, unit, keyframe.path, shot=placed.shot.id), worst)
 
 
@@ -112,17 +112,17 @@ def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> 
     yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "sampled"))
 
 
-def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, way: ExpectedPlaces) -> float:
+def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, course: ExpectedPlaces) -> float:
     """Return how far a shot may be from its ideal, metres, as the plan reports and the mission explains."""
     assert shot.ideal is not None
     placed = shot.ideal.placed
-    blocks = in_the_way(flight, way, placed=placed)
-    far = farthest(flight.mission, (s.target for s in shot.subjects), way)
+    blocks = in_the_way(flight, course, placed=placed)
+    far = farthest(flight.mission, (s.target for s in shot.subjects), course)
     explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
-    explained += for_its_limits(flight, way, shot.smoothing)
+    explained += for_its_limits(flight, course, shot.smoothing)
     reported = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
     allowed = min(reported, explained) + UNREPORTED_M
-    stands = placed and not np.ptp(way.places, axis=0).any()
+    stands = placed and not np.ptp(course.places, axis=0).any()
     return min(allowed, max(explained, IN_PLACE_M)) if stands else allowed
 
 
@@ -140,8 +140,8 @@ def _miss(
     if time is None or not phase.start - ON_TIME_S <= time <= phase.end + ON_TIME_S:
         return WorstValue(inf, None, "exact")
     placed, index = which
-    asked = placed.shot.keyframes[index]
-    at = placed.keyframes[index].at if asked.beside is None else place_of(flight.mission, asked, time)
+    written = placed.shot.keyframes[index]
+    at = placed.keyframes[index].at if written.beside is None else place_of(flight.mission, written, time)
     away = flight.track.curve(time)[:3] - np.array(at)
     return WorstValue(float(np.linalg.norm(away)), time, "exact")
 

@@ -116,8 +116,8 @@ def _how_far(sight: CameraAndBody, claim: Claim) -> str:
     far = f"{float(away):.1f} m from the camera"
     if sight.mission.rules.half_angle is None:
         return f"its body reaches {measure(-claim.worst, 'm')} into the frame, {far}"
-    reached, asked = told_apart(max(0.0, claim.worst), claim.limit, "rad")
-    return f"its body is {reached} off the axis, {asked} are to be kept free, {far}"
+    reached, required = told_apart(max(0.0, claim.worst), claim.limit, "rad")
+    return f"its body is {reached} off the axis, {required} are to be kept free, {far}"
 
 
 def _doing(other: DroneTrajectory, time: float) -> str:

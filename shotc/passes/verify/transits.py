@@ -43,7 +43,7 @@ def _kept(
 ) -> Iterator[Claim]:
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
-    bounds = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
+    bounds = [on_way(near, clearance, interval) for interval in ways(flight.track.phases)]
     worst = min(bounds, key=lambda bound: bound.proven, default=None)
     if worst is None or worst.proven == inf:
         return
@@ -52,22 +52,22 @@ def _kept(
     yield bounded(flight, limit, less(worst, flight.drone.radius))
 
 
-def on_way(near: tuple[Solid, Piecewise], clearance: float, way: TransitInterval) -> ProvedExtreme:
+def on_way(near: tuple[Solid, Piecewise], clearance: float, interval: TransitInterval) -> ProvedExtreme:
     """Return a bound on the distance from a solid, plus what the taper allows, on a transfer.
 
     near : the solid, and the flight relative to it
     clearance : of the body's centre, metres
     """
     solid, curve = near
-    taper = taper_of(solid, curve, clearance, way)
-    return inf_tapered(cut(curve, way.start, way.end), solid, taper, gap(clearance))
+    taper = taper_of(solid, curve, clearance, interval)
+    return inf_tapered(cut(curve, interval.start, interval.end), solid, taper, gap(clearance))
 
 
-def taper_of(solid: Solid, curve: Piecewise, clearance: float, way: TransitInterval) -> Taper:
+def taper_of(solid: Solid, curve: Piecewise, clearance: float, interval: TransitInterval) -> Taper:
     """Return the tapered clearance on a transfer, for a curve relative to a solid.
 
     clearance : of the body's centre, metres
     """
-    ends = curve(np.array([way.start, way.end]))
+    ends = curve(np.array([interval.start, interval.end]))
     gaps = np.array([distance(solid, (float(end[0]), float(end[1]), float(end[2]))) for end in ends])
     return Taper(clearance, TAPER_SLOPE, ends, gaps)

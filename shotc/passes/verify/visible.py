@@ -33,8 +33,8 @@ def visible(flight: JudgedFlight, shot: Shot, target: str, times: Array, covered
     """
     free = 1.0 - covered
     yield _least(flight, shot, target, times, free)
-    asked = shot.promise.visible is not None or shot.promise.reveal is not None
-    most = -inf if asked else HALF_SHARE  # a promise replaces this claim
+    promised = shot.promise.visible is not None or shot.promise.reveal is not None
+    most = -inf if promised else HALF_SHARE  # a promise replaces this claim
     limit = Limit(f"{target}{IN_SIGHT}", most, "of samples", shot.path, upper=False, hard=False, shot=shot.id)
     hidden = free < HALF_SHARE
     yield claim(
@@ -42,25 +42,25 @@ def visible(flight: JudgedFlight, shot: Shot, target: str, times: Array, covered
     )
     if shot.promise.reveal is not None:
         first, last = shot.promise.reveal
-        for name, key, wanted, k, upper in (
+        for name, key, value, k, upper in (
             (AT_FIRST, "from", first, 0, first < last),
             (AT_LAST, "to", last, -1, first > last),
         ):
             path = (*shot.path, "require", "reveal", key)
-            limit = Limit(f"{target}{name}", wanted, OUTLINE, path, upper=upper, shot=shot.id)
+            limit = Limit(f"{target}{name}", value, OUTLINE, path, upper=upper, shot=shot.id)
             yield claim(flight, limit, WorstValue(float(free[k]), float(times[k]), "sampled"))
 
 
 def _least(flight: JudgedFlight, shot: Shot, target: str, times: Array, free: Array) -> Claim:
-    asked, least = shot.promise.visible, float(free.min())
-    told = -inf if shot.promise.reveal is not None else HALF_SHARE
+    promised, least = shot.promise.visible, float(free.min())
+    default = -inf if shot.promise.reveal is not None else HALF_SHARE
     limit = Limit(
         f"{target}{VISIBLE}",
-        told if asked is None else asked,
+        default if promised is None else promised,
         OUTLINE,
-        shot.path if asked is None else (*shot.path, "require", "visible"),
+        shot.path if promised is None else (*shot.path, "require", "visible"),
         upper=False,
-        hard=asked is not None,
+        hard=promised is not None,
         shot=shot.id,
     )
     k = longest(free <= least + SAME_SHARE)

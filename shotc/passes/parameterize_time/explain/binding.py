@@ -229,11 +229,11 @@ def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0)
     return f"{up(_written(mission, shown, value, BENDING_RATIO)):.2f} {shown.unit}"
 
 
-def _written(mission: MissionIR, shown: _Shown, value: float, room: float = 1.0) -> float:
+def _written(mission: MissionIR, shown: _Shown, value: float, share: float = 1.0) -> float:
     """Return a limit of the ceiling, SI, as the number written in the mission, times a factor."""
     if shown is _SHOWN["tilt"]:
-        return degrees(asin(room * value / G_M_S2))
+        return degrees(asin(share * value / G_M_S2))
     if shown is _SHOWN["thrust_to_weight"]:
-        return 1.0 + room * value / G_M_S2
+        return 1.0 + share * value / G_M_S2
     value = degrees(value) if shown.angular else value
-    return room * (value + mission.wind_taken if shown is _SHOWN["speed"] else value)
+    return share * (value + mission.wind_taken if shown is _SHOWN["speed"] else value)

@@ -71,7 +71,7 @@ def too_fast(
 
 
 def start_too_early(
-    mission: MissionIR, leg: Leg, asked: float, earliest: float, phases: tuple[Phase, ...]
+    mission: MissionIR, leg: Leg, start: float, earliest: float, phases: tuple[Phase, ...]
 ) -> Diagnostic:
     """Return T003: the drone arrives after the shot's start.
 
@@ -79,7 +79,7 @@ def start_too_early(
     """
     return Diagnostic(
         "T003",
-        f"shot `{leg.shot}` starts at {plain(asked)} s, but {at_least(earliest)} s is the earliest possible",
+        f"shot `{leg.shot}` starts at {plain(start)} s, but {at_least(earliest)} s is the earliest possible",
         (timing_value(mission, leg.path, "start"),),
         (f"before it come {phases_in_words(phases)}",),
         f"give it `start: {at_least(earliest)} s` or later, or shorten what comes before",

@@ -71,18 +71,18 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     if beyond := list(check_covered(mission, filmed)):
         return beyond
     beside = _beside_meshes(mission, filmed)
-    ideals = (fault for shot, way in filmed for fault in check_ideal(mission, shot, way))
+    ideals = (fault for shot, film in filmed for fault in check_ideal(mission, shot, film))
     homes = [*check_homes(mission), *check_safety(mission), *beside.homes, *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
     places += beside.places
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     misplaced = {shot.path for shot, _ in wrong}
     sound = [shot for shot in mission.shots if shot.path not in misplaced]
-    faults = [*homes, *(d for shot, way in filmed for d in check_reference(mission, shot, way))]
+    faults = [*homes, *(d for shot, film in filmed for d in check_reference(mission, shot, film))]
     faults += [d for _, _, d in places]
-    kept = [(shot, way) for shot, way in filmed if shot.path not in misplaced]
-    faults += [d for shot, way in kept for d in check_heights(mission, shot, way)]
-    faults += [d for shot, way in kept for d in check_shake(mission, shot, way)]
+    kept = [(shot, film) for shot, film in filmed if shot.path not in misplaced]
+    faults += [d for shot, film in kept for d in check_heights(mission, shot, film)]
+    faults += [d for shot, film in kept for d in check_shake(mission, shot, film)]
     faults += check_framing(mission, {path for _, path in wrong})
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
@@ -101,8 +101,8 @@ def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _B
         return _Beside()
     from shotc.passes.resolve.checks.beside_meshes import check_homes_beside, check_shot_beside
 
-    told = ((shot, check_shot_beside(mission, shot, way)) for shot, way in filmed)
-    places = tuple((shot, path, d) for shot, found in told for path, d in found)
+    faults = ((shot, check_shot_beside(mission, shot, film)) for shot, film in filmed)
+    places = tuple((shot, path, d) for shot, diagnosed in faults for path, d in diagnosed)
     return _Beside(tuple(check_homes_beside(mission)), places)
 
 

@@ -76,14 +76,14 @@ def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
         yield Diagnostic("G027", message, labels, (note, *_large(near.mesh)), _other_home(mission, drone))
 
 
-def check_shot_beside(mission: MissionIR, shot: Shot, way: Way) -> Iterator[tuple[KeyPath, Diagnostic]]:
+def check_shot_beside(mission: MissionIR, shot: Shot, film: Way) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield where a shot's camera is too near to a mesh, with the key path."""
     if shot.ideal is None or is_keyed(shot):
         for path, keyframes in by_line(shot).items():
             fixed = [k.at for k in keyframes if k.beside is None or shot.ideal is None]
             yield from _blocked(mission, shot, (*path, "at"), fixed, bound=keyframes[0].placed)
         return
-    places = [moment.at for moment in way]
+    places = [moment.at for moment in film]
     yield from _blocked(mission, shot, (*shot.path, "at"), places, bound=shot.ideal.placed)
 
 
@@ -94,8 +94,8 @@ def _blocked(
     if not places:
         return
     drone = mission.drone(shot.drone)
-    found = _nearest(mission, np.array(places), drone)
-    lacking = [(near, at) for near, at in zip(found, places, strict=True) if near.lack > ROUNDING_M]
+    blocked = _nearest(mission, np.array(places), drone)
+    lacking = [(near, at) for near, at in zip(blocked, places, strict=True) if near.lack > ROUNDING_M]
     if not lacking:
         return
     near, at = max(lacking, key=lambda pair: pair[0].lack)
@@ -147,9 +147,9 @@ def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[MeshClearance]:
     for mesh in mission.meshes:
         needed = mission.rules.beside_obstacle(drone.radius) + mesh.spacing
         held = mesh.holds(p)
-        found = nearest(mesh.surface, p, np.where(held, np.inf, needed))
-        names = [mesh.name_at(int(mesh.surface.source[t])) if t >= 0 else "" for t in found.triangle]
-        away = np.where(held, -found.distance, found.distance)
+        closest_points = nearest(mesh.surface, p, np.where(held, np.inf, needed))
+        names = [mesh.name_at(int(mesh.surface.source[t])) if t >= 0 else "" for t in closest_points.triangle]
+        away = np.where(held, -closest_points.distance, closest_points.distance)
         near = [
             MeshClearance(mesh, float(a), needed - float(a), name)
             for a, name in zip(away, names, strict=True)
@@ -162,10 +162,10 @@ def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClear
     """Return the obstacle on the vertical above a home, if there is one."""
     home, body = np.array([drone.home]), drone.radius + mesh.spacing
     if mesh.holds(home)[0]:
-        found = nearest(mesh.surface, home)
-        deep = float(found.distance[0])
+        closest_points = nearest(mesh.surface, home)
+        deep = float(closest_points.distance[0])
         return MeshClearance(
-            mesh, -deep, body + deep, mesh.name_at(int(mesh.surface.source[found.triangle[0]]))
+            mesh, -deep, body + deep, mesh.name_at(int(mesh.surface.source[closest_points.triangle[0]]))
         )
     x, y, z = drone.home
     low = z + PAD_RADIUS_RATIO * drone.radius + mesh.spacing
@@ -209,8 +209,8 @@ def _other_place(mission: MissionIR, drone: Drone, p: Vec3) -> str:
         return _nearest(mission, np.array([q]), drone)[0].lack <= ROUNDING_M
 
     places = list(_around(p, steep=True))
-    room = [near.lack <= 0.0 for near in _nearest(mission, np.array(places), drone)]
-    place = _first(p, [q for q, ok in zip(places, room, strict=True) if ok], free)
+    is_free = [near.lack <= 0.0 for near in _nearest(mission, np.array(places), drone)]
+    place = _first(p, [q for q, ok in zip(places, is_free, strict=True) if ok], free)
     return "move it to a free place" if place is None else move(p, place)
 
 

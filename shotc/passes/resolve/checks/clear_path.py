@@ -39,7 +39,7 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[ParameterChange]:
     target = mission.target(shot.subject)
     centre = target.centre
 
-    def aside(k: Keyframe, by: float) -> Keyframe:
+    def at_shift(k: Keyframe, by: float) -> Keyframe:
         return at_distance(centre, k, distance_of(centre, k) + by)
 
     def above(k: Keyframe, by: float) -> Keyframe:
@@ -52,14 +52,16 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[ParameterChange]:
     ends = (shot.keyframes[0], shot.keyframes[-1])
     changes: list[ParameterChange] = []
     for key, move, least in (
-        (DISTANCES[shot.kind], aside, STEP_M - nearest),
+        (DISTANCES[shot.kind], at_shift, STEP_M - nearest),
         ("altitude", above, -LARGEST_CHANGE_M),
     ):
         by = next(_free(mission, shot, move, least), None)
         if by is not None:
-            now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
+            now = [distance_of(centre, k) if move is at_shift else altitude(k) for k in ends]
             value = span(now[0] + by, now[1] + by)
-            changes.append(ParameterChange(key, value if move is aside else as_counted(mission, shot, value)))
+            changes.append(
+                ParameterChange(key, value if move is at_shift else as_counted(mission, shot, value))
+            )
     return changes
 
 

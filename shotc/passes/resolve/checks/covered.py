@@ -35,16 +35,16 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
         filming = [shot for shot in mission.shots if target.name in _filmed(mission, shot)]
         if filming and all(HIDDEN in shot.allow for shot in filming):
             continue
-        way = tuple(_way(target, end))
+        positions = tuple(_positions(target, end))
         for zone in mission.zones:
-            met = None if zone.keep == "in" else first_within(way, zone.solid)
+            met = None if zone.keep == "in" else first_within(positions, zone.solid)
             if met is not None:
-                yield _told(mission, target, zone, met)
+                yield _diagnostic(mission, target, zone, met)
 
 
-def first_within(way: Sequence[TargetPosition], solid: Solid) -> TargetPosition | None:
+def first_within(positions: Sequence[TargetPosition], solid: Solid) -> TargetPosition | None:
     """Return the first position inside a solid, for straight motion between positions; None if none is."""
-    for a, b in pairwise(way):
+    for a, b in pairwise(positions):
         if crosses(solid, a.at, b.at):
             return _entry(solid, a, b)
     return None
@@ -66,7 +66,7 @@ def _between(a: TargetPosition, b: TargetPosition, share: float) -> TargetPositi
     return TargetPosition(a.time + share * (b.time - a.time), (x, y, z))
 
 
-def _way(target: Target, end: float) -> Iterator[TargetPosition]:
+def _positions(target: Target, end: float) -> Iterator[TargetPosition]:
     """Yield the positions of a target's centre: at the mission's start, the rows of its track, and
     the end.
     """
@@ -81,7 +81,7 @@ def _filmed(mission: MissionIR, shot: Shot) -> set[str]:
     return {part for name in names if name in known for part in mission.parts_of(str(name))}
 
 
-def _told(mission: MissionIR, target: Target, zone: Zone, met: TargetPosition) -> Diagnostic:
+def _diagnostic(mission: MissionIR, target: Target, zone: Zone, met: TargetPosition) -> Diagnostic:
     place = "({:.2f}, {:.2f}, {:.2f}) m".format(*met.at)
     comes = met.time > 0.0
     state = "comes into" if comes else "stands in" if target.track is None else "begins in"

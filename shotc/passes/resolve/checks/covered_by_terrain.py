@@ -26,8 +26,8 @@ def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Ite
     for drone in mission.drones:
         home = (*drone.path, "home")
         yield from _outside(mission, terrain, f"the home of `{drone.name}`", home, [drone.home])
-    for shot, way in filmed:
-        yield from _outside(mission, terrain, f"shot `{shot.id}`", shot.path, [moment.at for moment in way])
+    for shot, film in filmed:
+        yield from _outside(mission, terrain, f"shot `{shot.id}`", shot.path, [moment.at for moment in film])
     for fleet in whole_fleets(mission.fleets):
         yield from _outside(
             mission, terrain, f"the layout of {fleet.words}", pads_path(mission, fleet), fleet.pads
@@ -40,9 +40,9 @@ def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Ite
 
 
 def _outside(
-    mission: MissionIR, terrain: Terrain, words: str, path: KeyPath, way: Sequence[Vec3]
+    mission: MissionIR, terrain: Terrain, words: str, path: KeyPath, film: Sequence[Vec3]
 ) -> Iterator[Diagnostic]:
-    outside = [(terrain.beyond(x, y), x, y) for x, y, _ in way if terrain.height(x, y) is None]
+    outside = [(terrain.beyond(x, y), x, y) for x, y, _ in film if terrain.height(x, y) is None]
     if not outside:
         return
     by, x, y = max(outside)

@@ -68,17 +68,17 @@ def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | N
 def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float) -> Diagnostic:
     """Return the fault of a pitch out of the gimbal's range; ``path`` is its key path."""
     low, high = (degrees(p) for p in drone.gimbal.pitch)
-    asked = degrees(pitch)
+    required = degrees(pitch)
     labels = (
         mission.origins.value(path),
         mission.origins.value((*drone.path, "gimbal", "pitch"), "the gimbal's range"),
     )
     return Diagnostic(
         "G013",
-        f"the gimbal cannot pitch to {asked:.1f} deg",
+        f"the gimbal cannot pitch to {required:.1f} deg",
         labels,
         (f"the gimbal of `{drone.name}` reaches {low:.1f} to {high:.1f} deg",),
-        f"pitch the camera to {max(low, min(high, asked)):.1f} deg, or take a gimbal that reaches farther",
+        f"pitch the camera to {max(low, min(high, required)):.1f} deg, or take a gimbal that reaches farther",
     )
 
 
@@ -106,11 +106,11 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
 
 def _less_drift(setting: FixedCamera, keyframe: Keyframe) -> str:
     """Return how far a camera that looks straight down may drift, and from what height, as a remedy."""
-    below, aside = -setting.offset[2], hypot(*setting.offset[:2])
+    below, level = -setting.offset[2], hypot(*setting.offset[:2])
     half = tan(setting.hfov / 2) / setting.aspect
     if below <= 0:
         return "drift less far, or fly higher"
-    high = keyframe.at[2] + aside / half - below
+    high = keyframe.at[2] + level / half - below
     return f"drift {at_most(below * half)} m or less in all, or write `altitude: {at_least(high, 1)}` or more"
 
 

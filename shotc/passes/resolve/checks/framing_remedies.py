@@ -36,21 +36,21 @@ def for_size_and_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float
 ) -> Iterator[str]:
     """Yield the largest feasible size without the elevation, if an elevation is written."""
-    azimuth, asked = subject.view or (None, None)
-    if asked is None:
+    azimuth, elevation = subject.view or (None, None)
+    if elevation is None:
         return
     free = subject._replace(view=None if azimuth is None else (azimuth, None))
     for remedy in for_size(fits, mission, _with(shot, subject, free), free, most):
         yield f"leave `elevation` out and {remedy}"
 
 
-def for_lens(fits: Fits, mission: MissionIR, shot: Shot, wanted: Wanted, nearest: Vec3) -> Iterator[str]:
+def for_lens(fits: Fits, mission: MissionIR, shot: Shot, needed: Wanted, nearest: Vec3) -> Iterator[str]:
     """Yield the widest lens with which a subject has its size at its clearance or beyond.
 
     nearest : the camera's offset from the subject at its clearance, metres
     """
     drone = mission.drone(shot.drone)
-    widest = None if wanted.size is None else lens_for(wanted, lens_of(drone), nearest, wanted.size)
+    widest = None if needed.size is None else lens_for(needed, lens_of(drone), nearest, needed.size)
     camera = (*drone.path, "camera")
     if widest is None:
         return
@@ -81,9 +81,9 @@ def for_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, least: float = 0.0
 ) -> Iterator[str]:
     """Yield the lowest feasible elevation of at least ``least`` degrees."""
-    azimuth, asked = subject.view or (None, None)
+    azimuth, elevation = subject.view or (None, None)
     written = (*subject.path[:-1], "view") in mission.origins.values
-    lowest = round(max(least, -90.0 if asked is None else degrees(asked) + 1.0))
+    lowest = round(max(least, -90.0 if elevation is None else degrees(elevation) + 1.0))
     for rise in sorted({lowest, *(r for r in RISES if r > lowest)}):
         if rise < 90 and fits(mission, _with(shot, subject, subject._replace(view=(azimuth, radians(rise))))):
             yield (
@@ -94,9 +94,9 @@ def for_elevation(
 
 def for_free_elevation(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
     """Yield the remedy to remove the elevation, if one is written and this is feasible."""
-    azimuth, asked = subject.view or (None, None)
+    azimuth, elevation = subject.view or (None, None)
     view = None if azimuth is None else (azimuth, None)
-    if asked is not None and fits(mission, _with(shot, subject, subject._replace(view=view))):
+    if elevation is not None and fits(mission, _with(shot, subject, subject._replace(view=view))):
         yield "leave `elevation` out: then it is as low as it may be"
 
 
@@ -123,11 +123,13 @@ def as_at(
     writes : returns the relevant part of a setpoint, None where it has none; the key path of the subject is
         that of the last setpoint with this part up to the time, or its own
     """
-    asked, composition = subject.asked(time), subject.composition
-    if asked.place is not None:
-        composition = composition._replace(points=(asked.place,))
+    appearance, composition = subject.asked(time), subject.composition
+    if appearance.place is not None:
+        composition = composition._replace(points=(appearance.place,))
     own = [s.path for s in subject.setpoints if s.time <= time and writes(s) is not None]
-    still = Subject(subject.target, composition, asked.size, asked.view, (own or [subject.path])[-1])
+    still = Subject(
+        subject.target, composition, appearance.size, appearance.view, (own or [subject.path])[-1]
+    )
     return _with(shot, subject, still), still
 
 

@@ -73,8 +73,8 @@ def _never_so_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bo
     """Return the fault of the first infeasible size of a subject, at the start or at a setpoint, or None."""
     led = (as_at(shot, subject, s.time, lambda setpoint: setpoint.size) for s in subject.setpoints)
     shots = ((shot, subject), *led)
-    found = (_too_large(mission, then, one, advise) for then, one in shots)
-    return next((fault for fault in found if fault is not None), None)
+    faults = (_too_large(mission, then, one, advise) for then, one in shots)
+    return next((fault for fault in faults if fault is not None), None)
 
 
 def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
@@ -84,11 +84,11 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     drone = mission.drone(shot.drone)
     near = mission.rules.beside_target(drone.radius)
     start = first_start(mission, shot)
-    wanted = wanted_at(mission, subject, start, start)
-    toward = direction(wanted.azimuth or 0.0, wanted.elevation or 0.0)
-    least = nearest(wanted, toward, near)
+    needed = wanted_at(mission, subject, start, start)
+    toward = direction(needed.azimuth or 0.0, needed.elevation or 0.0)
+    least = nearest(needed, toward, near)
     x, y, z = (c * least for c in toward)
-    largest = size_from(wanted, lens_of(drone), (x, y, z))
+    largest = size_from(needed, lens_of(drone), (x, y, z))
     if largest >= subject.size * (1 - ROUNDING):
         return None
     path = shot_key(mission, shot, subject, "size")
@@ -116,7 +116,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
         ),
         _either(
             for_size(_fits, mission, shot, subject, largest),
-            for_lens(_fits, mission, shot, wanted, (x, y, z)),
+            for_lens(_fits, mission, shot, needed, (x, y, z)),
             otherwise=_either(
                 for_size_and_elevation(_fits, mission, shot, subject, subject.size),
                 otherwise="film it from another side",
@@ -186,12 +186,12 @@ def _alone_at(course: StartedFraming, i: int) -> tuple[Shot, Subject]:
 def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagnostic:
     shot, drone = course.shot, mission.drone(course.shot.drone)
     subject = shot.subjects[0]
-    asked = next((s for s in shot.subjects if s.view is not None), subject)
+    viewed = next((s for s in shot.subjects if s.view is not None), subject)
     x, y, z = course.poses[0][:3]
-    owner, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda found: found[1])
+    owner, lack = max(lacks(mission, drone, (x, y, z), course.times[0]), key=lambda entry: entry[1])
     free = all(s.view is None or s.view[0] is None for s in shot.subjects)
     size = mission.origins.value(shot_key(mission, shot, subject, "size"))
-    label = size if free else _view_label(mission, shot, asked, "azimuth")
+    label = size if free else _view_label(mission, shot, viewed, "azimuth")
     return Diagnostic(
         "M032",
         f"the camera of shot `{shot.id}` has no room where it sees `{subject.target}` as asked",
@@ -204,7 +204,7 @@ def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> D
             "this holds all through the shot",
         ),
         _either(
-            *(remedy(_fits, mission, shot, asked) for remedy in (for_azimuth, for_elevation)),
+            *(remedy(_fits, mission, shot, viewed) for remedy in (for_azimuth, for_elevation)),
             for_size(_fits, mission, shot, subject, subject.size or 0.0),
             otherwise="move what is in its way, or film it with another `kind`",
         )
@@ -254,10 +254,10 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
     for subject in shot.subjects:
         seen = []
         for t, pose in zip(course.times, course.poses, strict=True):
-            wanted = wanted_at(mission, subject, course.times[0], t)
-            found = judged(pose, lens, wanted)
-            if found is not None:
-                seen.append((t, found, wanted))
+            required = wanted_at(mission, subject, course.times[0], t)
+            appearance = judged(pose, lens, required)
+            if appearance is not None:
+                seen.append((t, appearance, required))
         apart = _apart(mission, course, subject, seen) if _known(mission, shot) else None
         if apart is not None:
             yield apart
@@ -298,10 +298,12 @@ def _far_from_place(mission: MissionIR, course: StartedFraming) -> str | None:
         for t, pose in zip(course.times, course.poses, strict=True)
     )
     turned, when = max((_turned(near, pose), t) for t, pose in zip(course.times, course.poses, strict=True))
-    told = [f"is {away:.1f} m from the place that it stays near at t = {t:.1f} s"] * (away > OFF_PLACE_M)
+    reasons = [f"is {away:.1f} m from the place that it stays near at t = {t:.1f} s"] * (away > OFF_PLACE_M)
     if turned > OFF_PLACE_RAD:
-        told.append(f"looks {degrees(turned):.0f} deg beside the way that it stays near at t = {when:.1f} s")
-    return f"the camera {', and '.join(told)}" if told else None
+        reasons.append(
+            f"looks {degrees(turned):.0f} deg beside the way that it stays near at t = {when:.1f} s"
+        )
+    return f"the camera {', and '.join(reasons)}" if reasons else None
 
 
 def _turned(near: Near, pose: Pose) -> float:
@@ -336,7 +338,7 @@ def _apart(
             ("from where they appear as asked, it is behind the camera",),
             "film it in another shot",
         )
-    t, worst, _ = max(seen, key=lambda found: found[1].out)
+    t, worst, _ = max(seen, key=lambda entry: entry[1].out)
     if worst.out > OUT_HALF_FRAMES:
         return Diagnostic(
             "M033",
@@ -345,15 +347,15 @@ def _apart(
             (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
             "film it in another shot, or take a wider lens",
         )
-    sized = [(found[1].size / found[2].size, *found) for found in seen if found[2].size is not None]
+    sized = [(entry[1].size / entry[2].size, *entry) for entry in seen if entry[2].size is not None]
     if not sized:
         return None
-    share, t, small, wanted = min(sized, key=lambda found: found[0])
-    if share * SIZES_APART_RATIO >= 1.0 or wanted.size is None:
+    share, t, small, needed = min(sized, key=lambda entry: entry[0])
+    if share * SIZES_APART_RATIO >= 1.0 or needed.size is None:
         return None
     return Diagnostic(
         "M033",
-        f"`{subject.target}` cannot be {_share(wanted.size)} of the frame high in one picture with {others}",
+        f"`{subject.target}` cannot be {_share(needed.size)} of the frame high in one picture with {others}",
         (mission.origins.value(shot_key(mission, shot, subject, "size")),),
         (f"at t = {t:.1f} s its size is {_share(small.size)} where all are in the frame",),
         f"ask for {_share(small.size)} or less, or film them in two shots",
@@ -363,18 +365,18 @@ def _apart(
 def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, Wanted]]) -> list[str]:
     """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
-    t, worst, wanted = max(seen, key=lambda found: found[1].screen)
-    if worst.screen > OFF_PLACE_HALF_FRAMES and wanted.uv is not None:
-        place = f"({wanted.uv[0]:.2f}, {wanted.uv[1]:.2f})"
+    t, worst, required = max(seen, key=lambda entry: entry[1].screen)
+    if worst.screen > OFF_PLACE_HALF_FRAMES and required.uv is not None:
+        place = f"({required.uv[0]:.2f}, {required.uv[1]:.2f})"
         notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
-    sized = [(abs(found[1].size / found[2].size - 1.0), *found) for found in seen if found[2].size]
+    sized = [(abs(entry[1].size / entry[2].size - 1.0), *entry) for entry in seen if entry[2].size]
     if sized:
-        off, t, worst, wanted = max(sized, key=lambda found: found[0])
-        if off > OFF_SIZE_SHARE and wanted.size:
+        off, t, worst, required = max(sized, key=lambda entry: entry[0])
+        if off > OFF_SIZE_SHARE and required.size:
             notes.append(
-                f"{_share(worst.size)} of the frame high instead of {_share(wanted.size)} at t = {t:.1f} s"
+                f"{_share(worst.size)} of the frame high instead of {_share(required.size)} at t = {t:.1f} s"
             )
-    t, worst, _ = max(seen, key=lambda found: found[1].angle)
+    t, worst, _ = max(seen, key=lambda entry: entry[1].angle)
     if worst.angle > OFF_VIEW_RAD:
         notes.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
     return notes

@@ -33,10 +33,10 @@ Way = tuple[CameraHeight, ...]
 """The ideal places of a shot's camera, from its first frame to its last."""
 
 
-def check_heights(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def check_heights(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the faults of a camera too low beside its target, or too high above the ground."""
-    yield from _below_foot(mission, shot, way)
-    yield from _too_high(mission, shot, way)
+    yield from _below_foot(mission, shot, film)
+    yield from _too_high(mission, shot, film)
 
 
 def way_of(mission: MissionIR, shot: Shot) -> Way:
@@ -56,10 +56,10 @@ def way_of(mission: MissionIR, shot: Shot) -> Way:
     )
 
 
-def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def check_reference(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the fault of a height above a target's foot, which in version 0.1 was above z = 0."""
     key = (*shot.path, "altitude")
-    feet = [moment.foot for moment in way if moment.foot is not None]
+    feet = [moment.foot for moment in film if moment.foot is not None]
     if shot.above != "target" or (*key, "above") in mission.origins.values or not feet:
         return
     buried = (
@@ -67,7 +67,7 @@ def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagno
     )  # which has a report of its own
     if buried or max(map(abs, feet)) < STANDS_M:
         return
-    now = [moment.at[2] for moment in way]
+    now = [moment.at[2] for moment in film]
     before = [z - foot for z, foot in zip(now, feet, strict=True)]
     written = _written(before)
     yield Diagnostic(
@@ -80,12 +80,12 @@ def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagno
     )
 
 
-def _below_foot(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def _below_foot(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the warning of a camera below its target's foot, though its height is above target or ground."""
     key = (*shot.path, "altitude")
     if shot.above in (None, "origin") or key not in mission.origins.values:
         return
-    deepest = max(way, key=lambda moment: -inf if moment.foot is None else moment.foot - moment.at[2])
+    deepest = max(film, key=lambda moment: -inf if moment.foot is None else moment.foot - moment.at[2])
     if deepest.foot is None or deepest.foot - deepest.at[2] <= ROUNDING_M:
         return
     yield Diagnostic(
@@ -93,16 +93,16 @@ def _below_foot(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
         f"the camera of shot `{shot.id}` is below the foot of target `{shot.subject}`",
         (mission.origins.value(key),),
         (f"it is at z = {deepest.at[2]:.2f} m, the target's foot at z = {deepest.foot:.2f} m",),
-        f"raise it, or write `altitude: {{above: origin, height: {_written([m.at[2] for m in way])}}}` "
+        f"raise it, or write `altitude: {{above: origin, height: {_written([m.at[2] for m in film])}}}` "
         "if it is to be that low",
     )
 
 
-def _too_high(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def _too_high(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the fault of a camera above the mission's limit, or without one above the usual legal limit."""
     rule = mission.rules.max_height
     most = LEGAL_M if rule is None else rule
-    high = max((m.at[2] - mission.ground(*m.at[:2]) for m in way), default=-inf)
+    high = max((m.at[2] - mission.ground(*m.at[:2]) for m in film), default=-inf)
     if high <= most + ROUNDING_M:
         return
     key = next((k for k in ("altitude", "at") if (*shot.path, k) in mission.origins.values), "kind")
@@ -119,13 +119,13 @@ def _too_high(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
     yield Diagnostic("G022", message, (label, beside), (), help_)
 
 
-def raised(mission: MissionIR, shot: Shot, way: Way, metres: float) -> str:
+def raised(mission: MissionIR, shot: Shot, film: Way, metres: float) -> str:
     """Return how to write a shot that is higher by so many metres."""
     above = shot.above
     if above is None or (*shot.path, "altitude") not in mission.origins.values:
         return f"raise it by {at_least(metres)} m"
-    bases = (counted_from(above, mission.ground, at[:2], foot or 0.0) for at, foot in way)
-    heights = [up(at[2] - base + metres) for (at, _), base in zip(way, bases, strict=True)]
+    bases = (counted_from(above, mission.ground, at[:2], foot or 0.0) for at, foot in film)
+    heights = [up(at[2] - base + metres) for (at, _), base in zip(film, bases, strict=True)]
     return f"write `altitude: {as_counted(mission, shot, _written(heights))}`"
 
 

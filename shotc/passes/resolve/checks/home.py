@@ -76,8 +76,8 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
     straight = atan2(moved.home[1] - y, moved.home[0] - x)
     reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE_M
     for turn in ROUND:
-        way = straight + radians(turn)
-        place = outward(standing.home, (x + reach * cos(way), y + reach * sin(way), z))
+        angle = straight + radians(turn)
+        place = outward(standing.home, (x + reach * cos(angle), y + reach * sin(angle), z))
         place = (place[0], place[1], moved.home[2])
         if stands_free(mission, moved._replace(home=place)):
             return move(moved.home, place).replace("move it", f"move `{moved.name}`", 1)
@@ -96,15 +96,15 @@ def stands_free(mission: MissionIR, drone: Drone) -> bool:
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[str, str] | None:
     """Return the obstacle at a home, and the numbers, as two texts; None where there is none."""
     top = max(drone.home[2], mission.lowest(drone.home, drone.radius))
-    room = take_off_room(drone.home, top, obstacle)
-    if room >= drone.radius - ROUNDING_M:
+    distance = take_off_room(drone.home, top, obstacle)
+    if distance >= drone.radius - ROUNDING_M:
         return None
     if obstacle.inside:
-        where = f"{room:.2f} m from its border" if room > 0 else f"{abs(room):.2f} m outside"
+        where = f"{distance:.2f} m from its border" if distance > 0 else f"{abs(distance):.2f} m outside"
         note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
         return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.owner.name}`", note
     where = "in" if signed_distance(obstacle.solid, drone.home) < drone.radius else "under"
-    reach = f"comes within {room:.2f} m" if room > 0 else f"reaches {-room:.2f} m into it"
+    reach = f"comes within {distance:.2f} m" if distance > 0 else f"reaches {-distance:.2f} m into it"
     note = (
         f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
     )

@@ -21,7 +21,7 @@ from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import down, up
 
 
-def check_ideal(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def check_ideal(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the faults of a shot on its own clock; one without a start is checked from its earliest
     start on.
     """
@@ -31,7 +31,7 @@ def check_ideal(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
         return
     outside = list(_outside(mission, shot))
     yield from outside
-    yield from _low(mission, shot, way)
+    yield from _low(mission, shot, film)
     yield from _tilted(mission, shot)
     if not outside:
         yield from check_speed(mission, shot)
@@ -52,14 +52,14 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         if begin >= track.since - ROUNDING_M and begin + duration <= track.until + ROUNDING_M:
             continue
         beside = mission.origins.value((*mission.target(name).path, "track"), "the track")
-        until = f"to {track.until:.2f} s" if track.until < inf else "on"
+        end = f"to {track.until:.2f} s" if track.until < inf else "on"
         filmed = "" if known is None else f" and begins at {known:.2f} s at the earliest"
         filmed = filmed if start is None else f", from {start:.2f} s to {start + duration:.2f} s"
         yield Diagnostic(
             "M004",
             f"shot `{shot.id}` reaches beyond the track of `{name}`",
             (timing_label(mission, shot), beside),
-            (f"`{name}` is known from {track.since:.2f} s {until}; the shot lasts {duration:.2f} s{filmed}",),
+            (f"`{name}` is known from {track.since:.2f} s {end}; the shot lasts {duration:.2f} s{filmed}",),
             _within(track, duration),
         )
 
@@ -79,13 +79,13 @@ def _within(track: Track, duration: float) -> str:
     return "give the track rows after the start of the mission, which is time 0"
 
 
-def _low(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def _low(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield the fault of an altitude that the user wrote, below the ground clearance."""
     ideal = shot.ideal
     if ideal is None or ideal.frame in ("about", "keyframes"):
         return
     need = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    lowest = min(z - mission.ground(x, y) for (x, y, z), _ in way)
+    lowest = min(z - mission.ground(x, y) for (x, y, z), _ in film)
     if lowest >= need - ROUNDING_M:
         return
     key = "altitude" if (*shot.path, "altitude") in mission.origins.values else "kind"
@@ -94,7 +94,7 @@ def _low(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
         f"shot `{shot.id}` is too low: {lowest:.2f} m over the ground",
         (mission.origins.value((*shot.path, key)),),
         (f"the ground clearance and the body radius need {need:.2f} m",),
-        raised(mission, shot, way, need - lowest),
+        raised(mission, shot, film, need - lowest),
     )
 
 

@@ -34,7 +34,7 @@ LEVEL = ("distance", "radius", "offset")
 
 def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the fault of an ideal that is faster than the drone over a window, for every possible start."""
-    drone, starts = mission.drone(shot.drone), _begins(mission, shot)
+    drone, starts = mission.drone(shot.drone), _starts(mission, shot)
     limit = drone.limits.speed
     if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + SPEED_ROUNDING_SHARE) for t in starts):
         return
@@ -110,7 +110,7 @@ def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
     return max(delays)
 
 
-def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
+def _starts(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
     """Return possible starts of a shot, seconds, the earliest first; empty where they are unknown."""
     known, ideal = known_start(mission, shot), shot.ideal
     first = first_start(mission, shot)
@@ -143,17 +143,17 @@ def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float
         shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
     window = min(WINDOW_S, duration)
-    found = []
+    speeds = []
     for i in range(IDEAL_SAMPLES + 1):
         t = start + (duration - window) * i / IDEAL_SAMPLES
         a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
-        found.append((hypot(b[0] - a[0] - wind[0] * window, b[1] - a[1] - wind[1] * window) / window, -t))
-    worst, late = max(found)
+        speeds.append((hypot(b[0] - a[0] - wind[0] * window, b[1] - a[1] - wind[1] * window) / window, -t))
+    worst, late = max(speeds)
     return worst, -late
 
 
 def _keeps_up(mission: MissionIR, shot: Shot, limit: float) -> bool:
-    return all(_fastest(mission, shot, t)[0] <= limit for t in _begins(mission, shot))
+    return all(_fastest(mission, shot, t)[0] <= limit for t in _starts(mission, shot))
 
 
 def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
@@ -163,28 +163,28 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
     if key is None or ideal is None or ideal.target is None:
         return
     first, last = ideal.points[0][1], ideal.points[-1][1]
-    asked = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
-    end = hypot(last[0], last[1]) / asked if (*shot.path, key, 0) in mission.origins.values else 1.0
+    given = abs(first[1]) if key == "offset" else hypot(first[0], first[1])
+    end = hypot(last[0], last[1]) / given if (*shot.path, key, 0) in mission.origins.values else 1.0
     least = mission.target(ideal.target).radius + mission.rules.beside_target(drone.radius)
     least /= min(1.0, end)
 
     def at(metres: float) -> Shot:
-        share = metres / asked
+        share = metres / given
         return _moved(shot, lambda p: (p[0] * (1.0 if key == "offset" else share), p[1] * share, p[2]))
 
-    low, high = up(least, 1), asked
+    low, high = up(least, 1), given
     if low >= high or not _keeps_up(mission, at(low), limit):
         return
     for _ in range(SPAN_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
-    told = max(up(least, 1), down(low, 1))
-    if _keeps_up(mission, at(told), limit):
+    nearer = max(up(least, 1), down(low, 1))
+    if _keeps_up(mission, at(nearer), limit):
         if end != 1.0:  # from one value to another
-            yield f"give it `{key}: [{told:.1f} m, {up(told * end, 1):.1f} m]` or nearer"
+            yield f"give it `{key}: [{nearer:.1f} m, {up(nearer * end, 1):.1f} m]` or nearer"
             return
         # An offset to the right has a negative sign.
-        yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
+        yield f"give it `{key}: {-nearer if key == 'offset' and first[1] < 0 else nearer:.1f} m` or nearer"
 
 
 def _other_side(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:

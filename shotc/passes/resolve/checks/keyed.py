@@ -60,7 +60,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
         seconds = arrive[i + 1] - arrive[i] - a.hold
         if lens is None or zoom_parts(shot, lens)[i] is not None or seconds <= 0.0:
             continue
-        way, reach = abs(b.hfov - a.hfov), ZOOM_RATE_SHARE * lens.rate * seconds
+        change, reach = abs(b.hfov - a.hfov), ZOOM_RATE_SHARE * lens.rate * seconds
         inside = degrees(a.hfov + (reach if b.hfov > a.hfov else -reach))
         nearer = f"{(floor if b.hfov > a.hfov else ceil)(10 * inside) / 10:g}"
         label = mission.origins.value((*b.path, "hfov"))
@@ -73,7 +73,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
                 (label,),
                 (
                     f"it has {degrees(lens.rate):.4g} deg/s (`zoom_rate`), and speeds up and slows down:"
-                    f" the zoom takes {at_least(way / (ZOOM_RATE_SHARE * lens.rate))} s",
+                    f" the zoom takes {at_least(change / (ZOOM_RATE_SHARE * lens.rate))} s",
                 ),
                 f"write `hfov: {nearer} deg`, or give it more time",
             ),

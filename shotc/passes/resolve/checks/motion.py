@@ -54,10 +54,10 @@ def length(keyframes: Sequence[Keyframe]) -> float:
     return sum(hypot(*(b - a for a, b in zip(p.at, q.at, strict=True))) for p, q in pairwise(keyframes))
 
 
-def _least(way: float, speed: float, acceleration: float | None) -> float:
-    """Return the least time over ``way`` metres, from rest to rest where acceleration is given."""
+def _least(distance: float, speed: float, acceleration: float | None) -> float:
+    """Return the least time over ``distance`` metres, from rest to rest where acceleration is given."""
     if acceleration is None:
-        return way / speed
-    if way * acceleration <= speed * speed:
-        return 2 * sqrt(way / acceleration)
-    return way / speed + speed / acceleration
+        return distance / speed
+    if distance * acceleration <= speed * speed:
+        return 2 * sqrt(distance / acceleration)
+    return distance / speed + speed / acceleration

@@ -31,8 +31,8 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     around = clearances_of(mission, drone)
     centre = mission.target(str(keyframe.target)).centre
     places: list[Vec3] = []
-    for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:NEAREST_WAYS]:
-        for q in _farther(centre, way):
+    for outside in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:NEAREST_WAYS]:
+        for q in _farther(centre, outside):
             place = outward(p, q)
             low = mission.lowest(place, drone.radius)
             if place[2] < low - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):

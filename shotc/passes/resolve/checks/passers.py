@@ -52,10 +52,12 @@ def passers_of(mission: MissionIR) -> Iterator[Diagnostic]:
             if target.track is None:
                 continue
             touches = list(_touches(drone, target, target.track))
-            yield from _told(mission, drone, target, touches)
+            yield from _diagnostics(mission, drone, target, touches)
 
 
-def _told(mission: MissionIR, drone: Drone, target: Target, touches: list[Touch]) -> Iterator[Diagnostic]:
+def _diagnostics(
+    mission: MissionIR, drone: Drone, target: Target, touches: list[Touch]
+) -> Iterator[Diagnostic]:
     ends = [(s.drone, first_start(mission, s) + (s.timing.duration or 0.0)) for s in mission.shots]
     filmed = [end for name, end in ends if name in (drone.name, AUTO)]
     if not filmed:
@@ -84,8 +86,8 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
         f"its body touches the drone's on the pad at t = {when:.1f} s; {why}",
         *filter(None, (target.counts_from,)),
     )
-    aside = beside_tracks(mission, drone, target)
-    help_ = f"{aside}, or have `{target.name}` pass at another time"
+    remedy = beside_tracks(mission, drone, target)
+    help_ = f"{remedy}, or have `{target.name}` pass at another time"
     message = f"target `{target.name}` comes over the pad of `{drone.name}` while the drone is on it"
     return Diagnostic("M012", message, labels, notes, help_)
 
@@ -97,8 +99,8 @@ def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
     x, y, z = drone.home
     for rings in RINGS:
         for turn in ROUND:
-            way = radians(turn)
-            place = (x + rings * reach * cos(way), y + rings * reach * sin(way), z)
+            angle = radians(turn)
+            place = (x + rings * reach * cos(angle), y + rings * reach * sin(angle), z)
             there = drone._replace(home=outward(drone.home, place))
             wider = there._replace(radius=wide)
             if stands_free(mission, there) and not any(_met(wider, t) for t in mission.targets):
@@ -119,7 +121,7 @@ def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
     for i in range(TAKEOFF_SAMPLES + 1):
         t = touch.first + (last - touch.first) * i / TAKEOFF_SAMPLES
         x, y, z = drone.home
-        if _room(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
+        if _gap(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
             return t
     return None
 
@@ -130,7 +132,7 @@ def _risen(drone: Drone, t: float) -> float:
     return min(limits.climb * t, 0.5 * limits.acceleration * t**2, limits.jerk * t**3 / 6.0)
 
 
-def _room(drone: Drone, target: Target, place: Vec3, t: float) -> float:
+def _gap(drone: Drone, target: Target, place: Vec3, t: float) -> float:
     """Return the distance between a drone's body at a place and a target's, metres; negative if they
     touch.
     """
@@ -173,27 +175,27 @@ def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None
     """Return when a target touches a drone on its pad in one part; once, as the distance is convex."""
     begin, end = stretch
     if end == inf:
-        return Touch(begin, inf) if _room(drone, target, drone.home, begin) < -ROUNDING else None
+        return Touch(begin, inf) if _gap(drone, target, drone.home, begin) < -ROUNDING else None
     (ax, ay, _), (bx, by, _) = target.at(begin), target.at(end)
     x, y, _ = drone.home
     near = closest_on_segment((ax, ay), (bx, by), (x, y))
     if hypot(near[0] - x, near[1] - y) >= target.radius + drone.radius:
         return None
-    way = hypot(bx - ax, by - ay)
-    share = hypot(near[0] - ax, near[1] - ay) / way if way > ROUNDING else 0.0
+    length = hypot(bx - ax, by - ay)
+    share = hypot(near[0] - ax, near[1] - ay) / length if length > ROUNDING else 0.0
     nearest = begin + share * (end - begin)
-    if _room(drone, target, drone.home, nearest) >= -ROUNDING:
+    if _gap(drone, target, drone.home, nearest) >= -ROUNDING:
         return None
     return Touch(_edge(drone, target, nearest, begin), _edge(drone, target, nearest, end))
 
 
 def _edge(drone: Drone, target: Target, inside: float, outside: float) -> float:
     """Return the end, towards ``outside``, of the time in which a target touches a drone on its pad."""
-    if _room(drone, target, drone.home, outside) < -ROUNDING:
+    if _gap(drone, target, drone.home, outside) < -ROUNDING:
         return outside
     for _ in range(TRACK_HALVINGS):
         middle = 0.5 * (inside + outside)
-        if _room(drone, target, drone.home, middle) < -ROUNDING:
+        if _gap(drone, target, drone.home, middle) < -ROUNDING:
             inside = middle
         else:
             outside = middle

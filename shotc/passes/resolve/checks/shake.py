@@ -35,7 +35,7 @@ class _Shake(NamedTuple):
     away_metres: float
 
 
-def check_shake(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
+def check_shake(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnostic]:
     """Yield warnings for recorded subjects of a shot on its own clock that shake visibly."""
     if shot.ideal is None or shot.timing.duration is None:
         return
@@ -44,35 +44,35 @@ def check_shake(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
         path: KeyPath = (*target.path, "track", "file")
         if target.track is None or path not in mission.origins.values:
             continue
-        found = _shake(mission, shot, way, target.track)
-        if found is None or found.share <= MOST_SHARE:
+        shake = _shake(mission, shot, film, target.track)
+        if shake is None or shake.share <= MOST_SHARE:
             continue
         yield Diagnostic(
             "G047",
-            f"the recording of target `{name}` shakes the picture of shot `{shot.id}` by {found.share:.3f} "
+            f"the recording of target `{name}` shakes the picture of shot `{shot.id}` by {shake.share:.3f} "
             "of half a frame's width (rms)",
             (mission.origins.value(path), mission.origins.key(shot.path, "the shot")),
             (
-                f"its rows stray {found.metres:.2f} m (rms) from their course, {found.worst_metres:.2f} m at "
-                f"t = {found.worst_time:.2f} s, and the camera is {found.away_metres:.1f} m away",
+                f"its rows stray {shake.metres:.2f} m (rms) from their course, {shake.worst_metres:.2f} m at "
+                f"t = {shake.worst_time:.2f} s, and the camera is {shake.away_metres:.1f} m away",
             ),
-            _remedy(mission, shot, way, target.track),
+            _remedy(mission, shot, film, target.track),
         )
 
 
-def _remedy(mission: MissionIR, shot: Shot, way: Way, track: Track) -> str:
+def _remedy(mission: MissionIR, shot: Shot, film: Way, track: Track) -> str:
     """Return the least smoothing that makes the shake invisible, as a remedy."""
     for seconds in OFFERED_S:
-        found = _shake(mission, shot, way, smoothed(track, seconds))
-        if found is not None and found.share <= MOST_SHARE:
+        shake = _shake(mission, shot, film, smoothed(track, seconds))
+        if shake is not None and shake.share <= MOST_SHARE:
             return f"write `smooth: {seconds:g} s` in the track"
     return "mend the recording, or film it from farther away"
 
 
-def _shake(mission: MissionIR, shot: Shot, way: Way, track: Track) -> _Shake | None:
+def _shake(mission: MissionIR, shot: Shot, film: Way, track: Track) -> _Shake | None:
     """Return the deviation of a shot's rows as its ideal sees them; None without rows."""
-    start, lasts = first_start(mission, shot), shot.timing.duration or 0.0
-    rows = scatter(track, COURSE_S, start, start + lasts)
+    start, duration = first_start(mission, shot), shot.timing.duration or 0.0
+    rows = scatter(track, COURSE_S, start, start + duration)
     if not rows:
         return None
     drone = mission.drone(shot.drone)
@@ -80,8 +80,8 @@ def _shake(mission: MissionIR, shot: Shot, way: Way, track: Track) -> _Shake | N
     squares = shares = away = 0.0
     worst, when = 0.0, start
     for t, off in rows:
-        share = (t - start) / lasts if lasts > 0 else 0.0
-        eye = way[round(share * (len(way) - 1))].at
+        share = (t - start) / duration if duration > 0 else 0.0
+        eye = film[round(share * (len(film) - 1))].at
         far = max(dist(eye, track.at(t)), drone.radius)
         across = _across(off, minus(track.at(t), eye))
         squares, shares, away = squares + across**2, shares + (across / (far * half)) ** 2, away + far

@@ -149,23 +149,23 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     """
     drone = mission.drone(shot.drone)
     least = least_shot(shot.keyframes, drone.limits)
-    asked = shot.timing.duration
-    if (least if asked is None else asked) > drone.endurance:
+    duration = shot.timing.duration
+    if (least if duration is None else duration) > drone.endurance:
         return [too_long(mission, shot, drone, least)]
-    if asked is None or asked >= least - ROUNDING_S:
+    if duration is None or duration >= least - ROUNDING_S:
         return []
     label = _duration_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
-    if holds > asked + ROUNDING_S:
+    if holds > duration + ROUNDING_S:
         held = [k for k in shot.keyframes if k.hold > 0]
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
-        note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
+        note = f"its holds alone last {holds:.1f} s; the shot is given {duration:.1f} s"
         message = f"shot `{shot.id}` holds longer than it lasts"
         return [Diagnostic("K003", message, labels, (note,), f"{_either(*_more(least))}; {SHORTEST}")]
-    notes = [f"{_way(shot)} need {_pace(mission, shot, drone, least)}"]
+    notes = [f"{_path_length_text(shot)} need {_pace(mission, shot, drone, least)}"]
     if least > drone.endurance:
         notes.append(f"that is longer than the endurance of {drone.endurance:.1f} s, too")
-    message = f"shot `{shot.id}` cannot be flown in {asked:.1f} s"
+    message = f"shot `{shot.id}` cannot be flown in {duration:.1f} s"
     return [Diagnostic("K004", message, (label,), tuple(notes), _in_time(mission, shot, drone, least))]
 
 
@@ -185,7 +185,7 @@ def _either(*ways: str) -> str:
     return ", or ".join(filter(None, (", ".join(ways[:-1]), ways[-1])))
 
 
-def _way(shot: Shot) -> str:
+def _path_length_text(shot: Shot) -> str:
     return f"the {length(shot.keyframes):.1f} m of its way"
 
 
@@ -205,13 +205,13 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
 
 def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
     """Return the fault of a shot that lasts longer than the endurance, as written or at least."""
-    asked, calmer = shot.timing.duration, list[str]()
-    seconds = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
+    duration, calmer = shot.timing.duration, list[str]()
+    seconds = f"lasts {duration:.1f} s" if duration is not None else f"takes at least {at_least(least, 1)} s"
     notes = [f"the shot {seconds}, the endurance is {drone.lasts}"]
-    if asked is None:
+    if duration is None:
         calmer = less_wind(mission, shot, drone, drone.endurance)
         if calmer:
-            notes.append(f"{_way(shot)} need {_pace(mission, shot, drone, least)}")
+            notes.append(f"{_path_length_text(shot)} need {_pace(mission, shot, drone, least)}")
     return Diagnostic(
         "K005",
         f"shot `{shot.id}` is longer than drone `{drone.name}` can stay in the air",

@@ -103,8 +103,8 @@ def _deepest(mission: MissionIR, target: Target, track: Track) -> _Deepest | Non
         over = [z - mission.ground(x, y) for x, y, z in feet]
         lowest = min(range(len(over)), key=over.__getitem__)
         return _Deepest(times[lowest], over[lowest])
-    found = mission.terrain.least_over(times, feet)
-    return None if found is None else _Deepest(*found)
+    least = mission.terrain.least_over(times, feet)
+    return None if least is None else _Deepest(*least)
 
 
 def _without_heights(written: TrackSpec) -> bool:

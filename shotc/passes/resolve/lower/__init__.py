@@ -205,8 +205,8 @@ def _rules(spec: RulesSpec) -> Rules:
 
 
 def _transits(spec: RulesSpec) -> TransitClearance:
-    asked = spec.transit_clearance
-    filmed, other = (None, None) if asked is None else (asked.filmed, asked.other)
+    clearances = spec.transit_clearance
+    filmed, other = (None, None) if clearances is None else (clearances.filmed, clearances.other)
     return TransitClearance(
         TRANSIT_FILMED_M if filmed is None else filmed,
         TRANSIT_OTHER_M if other is None else other,

@@ -38,15 +38,17 @@ def read_buildings(
         message = f"`{written.file}` gives latitudes and longitudes, but the mission has no origin"
         help_ = "add `world: {origin: {lat: ..., lon: ..., alt: ...}}`"
         return (), [Diagnostic("G015", message, label, help=help_)]
-    found = read_geojson(data)
-    if isinstance(found, FileFault):
-        return (), [bad_file(files.origins, BUILDINGS, written.file, found)]
+    footprints = read_geojson(data)
+    if isinstance(footprints, FileFault):
+        return (), [bad_file(files.origins, BUILDINGS, written.file, footprints)]
     put = onto_plane((origin.lat_deg, origin.lon_deg, origin.alt))
-    houses = houses_of(found.footprints, lambda place: put(place[1], place[0]), FARTHEST_M, written.height)
+    houses = houses_of(
+        footprints.footprints, lambda place: put(place[1], place[0]), FARTHEST_M, written.height
+    )
     wrong = list(_errors(written, houses, files))
     if not wrong and not houses.houses:
-        wrong = [_without_any(written, found, houses, files)]
-    return ((), wrong) if wrong else (houses.houses, list(_warnings(written, found, houses, files)))
+        wrong = [_without_any(written, footprints, houses, files)]
+    return ((), wrong) if wrong else (houses.houses, list(_warnings(written, footprints, houses, files)))
 
 
 def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Diagnostic]:
@@ -65,14 +67,17 @@ def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Di
 
 
 def _warnings(
-    written: BuildingsSpec, found: FeatureCollection, houses: Houses, files: Files
+    written: BuildingsSpec, footprints: FeatureCollection, houses: Houses, files: Files
 ) -> Iterator[Diagnostic]:
     label = (files.origins.value(BUILDINGS),)
     if houses.assumed:
         message = f"{_count(houses.assumed)} of `{written.file}` taken to be {written.height:g} m high"
         help_ = "give them a `height` in the file"
         yield Diagnostic("G036", message, label, _listed(houses.assumed), help_)
-    left = (*described(found.others), *([f"{houses.passed} polygons of no building"] * (houses.passed > 0)))
+    left = (
+        *described(footprints.others),
+        *([f"{houses.passed} polygons of no building"] * (houses.passed > 0)),
+    )
     if houses.far:
         left = (*left, f"{len(houses.far)} buildings more than {FARTHEST_M / 1000:.0f} km from the origin")
     if left:
@@ -88,7 +93,7 @@ _LEFT = "drones do not keep clear of what is left out; give what stands there `b
 
 
 def _without_any(
-    written: BuildingsSpec, found: FeatureCollection, houses: Houses, files: Files
+    written: BuildingsSpec, footprints: FeatureCollection, houses: Houses, files: Files
 ) -> Diagnostic:
     if houses.far:
         far = houses.far[0]
@@ -99,7 +104,7 @@ def _without_any(
         note = f"none of its {len(houses.far)} buildings is nearer than {FARTHEST_M / 1000:.0f} km"
         notes, help_ = ((note,), "") if where is None else ((note, where.note), where.help)
         return Diagnostic("G017", f"`{written.file}` lies somewhere else", label, notes, help_)
-    listed = ", ".join(described(found.others)) or "no feature"
+    listed = ", ".join(described(footprints.others)) or "no feature"
     wrong = FileFault(f"it holds no footprint: {listed}", None, "export areas, not points or lines")
     return bad_file(files.origins, BUILDINGS, written.file, wrong)
 

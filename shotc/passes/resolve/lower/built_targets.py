@@ -39,13 +39,13 @@ class _Named(NamedTuple):
         its = [standing.standing[i] for i in sorted(self.own)]
         return tuple(UprightPrism(h.ring, z + h.bottom, z + h.top, h.name) for h, z in its if z is not None)
 
-    def described(self, wanted: str, standing: Obstacles) -> str:
+    def described(self, building: str, standing: Obstacles) -> str:
         """Return its other names and its position, as a note."""
         sort = "a building" if self.mesh is None else "a part of the scene"
         blocks = self.blocks(standing)
         x, y = blocks[0].ring[0] if blocks else (0.0, 0.0)
         where = f"at [{x:.0f}, {y:.0f}]" if blocks else "beyond the terrain"
-        return f"{sort}{''.join(f' `{name}`' for name in self.called if name != wanted)} {where}"
+        return f"{sort}{''.join(f' `{name}`' for name in self.called if name != building)} {where}"
 
 
 def bodies_of_building(
@@ -55,7 +55,7 @@ def bodies_of_building(
 
     None where the files that contain it cannot be used, which is reported for these.
     """
-    wanted = (spec.targets[name].building or "").strip()
+    building = (spec.targets[name].building or "").strip()
     label = (origins.value(("targets", name, "building")),)
     if spec.world.buildings is None and spec.world.scene is None:
         message = f"target `{name}` is a building, and the mission names no file of buildings"
@@ -63,26 +63,26 @@ def bodies_of_building(
             "give the file under `world` as `buildings: {file: ...}`, or say where it stands: `at` and `size`"
         )
         return Diagnostic("G050", message, label, help=help_)
-    found = _meant(wanted, standing)
-    if len(found) > 1:
-        return _ambiguous(wanted, found, standing)._replace(labels=label)
-    if found:
-        blocks = found[0].blocks(standing)
-        beyond = Diagnostic("G048", f"`{wanted}` stands beyond the terrain", label, help=_COVER)
+    matching = _meant(building, standing)
+    if len(matching) > 1:
+        return _ambiguous(building, matching, standing)._replace(labels=label)
+    if matching:
+        blocks = matching[0].blocks(standing)
+        beyond = Diagnostic("G048", f"`{building}` stands beyond the terrain", label, help=_COVER)
         return bodies_about(blocks, MOST_BODIES) if blocks else beyond
     if standing.unread:
         return None
-    return _unknown(spec, wanted, standing)._replace(labels=label)
+    return _unknown(spec, building, standing)._replace(labels=label)
 
 
 _COVER = "take an elevation model that covers it"
 
 
-def _meant(wanted: str, standing: Obstacles) -> list[_Named]:
+def _meant(name: str, standing: Obstacles) -> list[_Named]:
     """Return the candidates with a name; if a building and a part of it have it, only the building."""
-    found = [named for named in _all(standing) if wanted in named.called]
+    matching = [named for named in _all(standing) if name in named.called]
     largest: list[_Named] = []
-    for named in sorted(found, key=lambda n: -len(n.own)):
+    for named in sorted(matching, key=lambda n: -len(n.own)):
         if not any(named.mesh is other.mesh and named.own <= other.own for other in largest):
             largest.append(named)
     return largest
@@ -102,23 +102,23 @@ def _all(standing: Obstacles) -> Iterator[_Named]:
             yield from (_Named((name,), frozenset([i]), mesh) for i, name in enumerate(mesh.names))
 
 
-def _ambiguous(wanted: str, found: list[_Named], standing: Obstacles) -> Diagnostic:
-    notes = tuple(named.described(wanted, standing) for named in found[:_LISTED_NAMES])
-    others = [name for named in found for name in named.called if name != wanted]
+def _ambiguous(building: str, matching: list[_Named], standing: Obstacles) -> Diagnostic:
+    notes = tuple(named.described(building, standing) for named in matching[:_LISTED_NAMES])
+    others = [name for named in matching for name in named.called if name != building]
     help_ = f"write `building: {others[0]}` if that one is meant" if others else "give each a name of its own"
-    return Diagnostic("G049", f"{len(found)} buildings are called `{wanted}`", (), notes, help_)
+    return Diagnostic("G049", f"{len(matching)} buildings are called `{building}`", (), notes, help_)
 
 
-def _unknown(spec: MissionSpec, wanted: str, standing: Obstacles) -> Diagnostic:
+def _unknown(spec: MissionSpec, building: str, standing: Obstacles) -> Diagnostic:
     files = [place.file for place in (spec.world.buildings, spec.world.scene) if place is not None]
     names = [named.called[0] for named in _all(standing) if named.called]
     every = {name: None for named in _all(standing) for name in named.called}
-    close = closest(wanted, every)
+    close = closest(building, every)
     listed = ", ".join(f"`{name}`" for name in sorted(dict.fromkeys(names), key=_words_first)[:_LISTED_NAMES])
     more = len(set(names)) - _LISTED_NAMES
     note = f"there are {listed}" + (f" and {more} more" if more > 0 else "")
     help_ = f"did you mean `{close}`?" if close else "write the `name` or the id that the file gives it"
-    message = f"{' and '.join(f'`{file}`' for file in files)} has no building `{wanted}`"
+    message = f"{' and '.join(f'`{file}`' for file in files)} has no building `{building}`"
     return Diagnostic("G048", message, (), (note,) if listed else ("none of them has a name",), help_)
 
 

@@ -25,20 +25,20 @@ def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
     """Return one fault for all geodetic positions without a place in W, at the first of them."""
     if not any(path[-1:] == ("lat",) and path[:2] != ("world", "origin") for path in origins.values):
         return []
-    places = sorted(_geodetic(spec, ()), key=lambda found: origins.value(found[0]).span)
+    places = sorted(_geodetic(spec, ()), key=lambda entry: origins.value(entry[0]).span)
     origin = geo_origin(spec)
     if origin is None:
         return [_without_origin(places, origins)] if places else []
     if not places:
         return []
     far = [(path, stray(origin, place.lat, place.lon)) for path, place in places]
-    strays = [(path, found) for path, found in far if found is not None]
+    strays = [(path, outlier) for path, outlier in far if outlier is not None]
     if not strays:
         return []
-    path, found = strays[0]
+    path, outlier = strays[0]
     labels = (origins.value(path), origins.key(("world", "origin"), "the origin"))
-    notes = (found.note, *_count(len(strays)))
-    return [Diagnostic("G017", found.message, labels, notes, found.help)]
+    notes = (outlier.note, *_count(len(strays)))
+    return [Diagnostic("G017", outlier.message, labels, notes, outlier.help)]
 
 
 def _without_origin(places: list[tuple[KeyPath, OnMap]], origins: OriginMap) -> Diagnostic:

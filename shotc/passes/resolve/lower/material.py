@@ -61,7 +61,7 @@ def digests(files: Material) -> tuple[tuple[str, str], ...]:
 def not_kept(displays: Iterable[Display], kept: KeptFiles, origins: OriginMap) -> list[Diagnostic]:
     """Return a fault for every file that displays draw and a plan does not contain."""
     known = dict(kept.drawn)
-    named = (found for display in displays for found in _named(display))
+    named = (key for display in displays for key in _named(display))
     return [
         Diagnostic("N008", f"`{name}` is not kept", (origins.value(path),), help=NOT_KEPT)
         for name, path in dict(named).items()

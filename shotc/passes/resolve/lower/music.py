@@ -83,8 +83,8 @@ def _times(spec: MusicSpec, files: Files) -> tuple[float, ...] | Diagnostic:
     data = files.read(spec.beats_file, path)
     if isinstance(data, Diagnostic):
         return data
-    found = read_beats(data)
-    return bad_file(files.origins, path, spec.beats_file, found) if isinstance(found, FileFault) else found
+    beats = read_beats(data)
+    return bad_file(files.origins, path, spec.beats_file, beats) if isinstance(beats, FileFault) else beats
 
 
 def _rising(spec: MusicSpec, origins: OriginMap) -> tuple[float, ...] | Diagnostic:

@@ -24,21 +24,21 @@ def named_pictures(
     spec: MissionSpec, displays: "Iterable[Display]", cast: "ShotSurroundings"
 ) -> tuple[Mapping[str, Target | None], list[Diagnostic]]:
     """Return the named pictures as targets, None for one of unknown size, and their faults."""
-    found: dict[str, Target | None] = {}
+    targets: dict[str, Target | None] = {}
     faults: list[Diagnostic] = []
     for display in displays:
         for picture in (p for p in display.pictures if p.name is not None):
             name, where = str(picture.name), (*picture.path, "name")
-            if name in cast.targets or name in found:
+            if name in cast.targets or name in targets:
                 label = cast.origins.value(where)
                 help_ = f"write `name: {name}-2`"
                 faults.append(Diagnostic("D129", f"there are two targets `{name}`", (label,), help=help_))
                 continue
-            made = _body(picture, _room(spec, display))
-            found[name] = None if made is None else Target(name, made[0], made[1], where)
+            made = _body(picture, _allowance(spec, display))
+            targets[name] = None if made is None else Target(name, made[0], made[1], where)
             if made is None:
                 faults.append(_without_size(cast.origins, picture))
-    return found, faults
+    return targets, faults
 
 
 def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[str, None]:
@@ -51,24 +51,24 @@ def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[st
     return {name: None for name in names if name is not None}
 
 
-def _room(spec: MissionSpec, display: "Display") -> float:
+def _allowance(spec: MissionSpec, display: "Display") -> float:
     """Return how far lights may lie outside of the picture, metres: half of their least distance."""
     fleet, least = spec.fleets.get(fleet_name(display.fleet)), spec.rules.separation
     return 0.5 * (least if fleet is None else apart_of(fleet, least).across)
 
 
-def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":
+def _body(picture: Picture, allowance: float) -> "tuple[Vec3, BodyShape] | None":
     """Return the centre and the shape of the body that contains a picture, or None where its size is unknown.
 
-    room : metres beyond the picture, on each side
+    allowance : metres beyond the picture, on each side
     """
-    source, more = picture.source, 2.0 * room
+    source, more = picture.source, 2.0 * allowance
     if picture.size is not None and source.centre is not None:
         width, depth, height = picture.size
         ahead = NORTH if isinstance(source, Sphere) else _ahead(source.heading)
         return source.centre, BoxShape(depth + more, width + more, height + more, ahead)
     if isinstance(source, Sphere):
-        return source.centre, CylinderShape(source.radius + room, 2.0 * source.radius + more)
+        return source.centre, CylinderShape(source.radius + allowance, 2.0 * source.radius + more)
     if isinstance(source, Box):
         width, depth, height = source.size
         return source.centre, BoxShape(depth + more, width + more, height + more, _ahead(source.heading))

@@ -85,8 +85,10 @@ def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) ->
     if not houses:
         return Obstacles(faults=tuple(faults))
     if find_spec("numpy") is None:
-        told = not_judged("buildings", written.file, BUILDINGS, files)
-        return Obstacles((), (*faults, told), tuple(GroundedBuilding(house, 0.0) for house in houses))
+        faults_of_file = not_judged("buildings", written.file, BUILDINGS, files)
+        return Obstacles(
+            (), (*faults, faults_of_file), tuple(GroundedBuilding(house, 0.0) for house in houses)
+        )
     from shotc.passes.resolve.lower.prisms import buildings_mesh
 
     made = buildings_mesh(houses, written.file, terrain, files)

@@ -62,11 +62,11 @@ def _prisms(name: str, standing: Sequence[tuple[House, float]]) -> ObstacleMesh:
     low = np.array([z + house.bottom for house, z in standing])
     high = np.array([z + house.top for house, z in standing])
     sizes = np.array([len(house.ring) for house in houses])
-    begins = np.cumsum(sizes) - sizes
+    starts = np.cumsum(sizes) - sizes
     side = np.repeat(np.arange(len(houses)), sizes)
     a = np.array([corner for house in houses for corner in house.ring])
     after = np.arange(len(a)) + 1
-    after[begins + sizes - 1] = begins
+    after[starts + sizes - 1] = starts
     b = a[after]
     a0, b0, a1, b1 = (np.column_stack([p, z[side]]) for z in (low, high) for p in (a, b))
     flat = np.array([triangle for house in houses for triangle in house.lid])

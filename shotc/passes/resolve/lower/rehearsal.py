@@ -16,10 +16,15 @@ def rehearsal(written: RehearseSpec | None) -> Rehearsal | None:
     """Return the rehearsal that a mission asks for, or None."""
     if written is None:
         return None
-    asked = written.require
+    requirements = written.require
     return Rehearsal(
         promise=RehearsalPromise(
-            asked.in_frame, asked.in_sight, asked.mean_error, asked.clearance, asked.stray, asked.of
+            requirements.in_frame,
+            requirements.in_sight,
+            requirements.mean_error,
+            requirements.clearance,
+            requirements.stray,
+            requirements.of,
         ),
         path=("rehearse",),
         runs=written.runs,

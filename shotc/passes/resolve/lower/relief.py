@@ -28,8 +28,13 @@ def relief(
     """
     name, path = written.file, ("world", "terrain", "file")
 
-    def fault(found: TerrainFault) -> Diagnostic:
-        return bad_file(files.origins, path, name, FileFault(found.message, found.line, found.help))
+    def fault(fault_of_terrain: TerrainFault) -> Diagnostic:
+        return bad_file(
+            files.origins,
+            path,
+            name,
+            FileFault(fault_of_terrain.message, fault_of_terrain.line, fault_of_terrain.help),
+        )
 
     posts = read_elevation(name, data, written.epsg)
     if not isinstance(posts, Posts):
@@ -41,10 +46,10 @@ def relief(
     )
     geo = files.origin
     origin = None if geo is None else (geo.lat_deg, geo.lon_deg, geo.alt)
-    found = relief_of(posts, box, origin, _offset(written, posts, geo))
-    if not isinstance(found, Relief):
-        return fault(found)
-    terrain = Terrain(found.ground, name)
+    ground = relief_of(posts, box, origin, _offset(written, posts, geo))
+    if not isinstance(ground, Relief):
+        return fault(ground)
+    terrain = Terrain(ground.ground, name)
     if written.datum != "home":
         return terrain
     home = every[0]

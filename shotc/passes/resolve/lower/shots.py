@@ -87,8 +87,8 @@ def expand_shots(spec: MissionSpec, cast: ShotSurroundings, spare: Callable[[], 
         deferred += expansion.deferred
         if (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
-    found = tuple(target for target in pictures.values() if target is not None)
-    return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), found)
+    targets_of_pictures = tuple(target for target in pictures.values() if target is not None)
+    return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), targets_of_pictures)
 
 
 def _expand(
@@ -119,8 +119,8 @@ def _expand(
 def _moves(keyframes: tuple[Keyframe, ...], targets: Mapping[str, Target | None]) -> bool:
     """Return whether a keyframe films a moving target, or has its place beside one."""
     names = {k.target for k in keyframes} | {k.beside.target for k in keyframes if k.beside is not None}
-    found = (targets.get(name) for name in names if name is not None)
-    return any(target is not None and target.track is not None for target in found)
+    subjects = (targets.get(name) for name in names if name is not None)
+    return any(target is not None and target.track is not None for target in subjects)
 
 
 def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath) -> Shot:

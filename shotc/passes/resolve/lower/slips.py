@@ -37,18 +37,18 @@ def check_slips(spec: MissionSpec, origin: GeoOrigin | None, origins: OriginMap)
     """Return a warning for each position in metres that would be near the origin in degrees."""
     if origin is None or hypot(origin.lat_deg, origin.lon_deg) < LEAST_DEG:
         return []
-    found: list[Diagnostic] = []
+    slips: list[Diagnostic] = []
     for written in _in_metres(spec, ()):
         for swapped in (False, True):
             lat, lon = written.place[1::-1] if swapped else written.place[:2]
             if _looks_like_degrees(origin, lat, lon):
-                found.append(_slip(written, (lat, lon), origin, origins))
+                slips.append(_slip(written, (lat, lon), origin, origins))
                 break
-    if len(found) > MOST_REPORTED:
-        more = f"{len(found) - MOST_REPORTED} more places of this mission look like this"
-        last = found[MOST_REPORTED - 1]
-        found[MOST_REPORTED - 1 :] = [last._replace(notes=(*last.notes, more))]
-    return found
+    if len(slips) > MOST_REPORTED:
+        more = f"{len(slips) - MOST_REPORTED} more places of this mission look like this"
+        last = slips[MOST_REPORTED - 1]
+        slips[MOST_REPORTED - 1 :] = [last._replace(notes=(*last.notes, more))]
+    return slips
 
 
 def _looks_like_degrees(origin: GeoOrigin, lat: float, lon: float) -> bool:

@@ -74,27 +74,27 @@ def targets(
 
 
 def _with_building(
-    made: Targets, name: str, found: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
+    made: Targets, name: str, shapes: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
 ) -> Targets:
     """Return targets with a building; one with several bodies is a group."""
-    if found is None or isinstance(found, Diagnostic):
-        return made._replace(faults=made.faults if found is None else (*made.faults, found))
+    if shapes is None or isinstance(shapes, Diagnostic):
+        return made._replace(faults=made.faults if shapes is None else (*made.faults, shapes))
     path = ("targets", name)
-    if len(found) == 1:
-        own = Target(name, found[0].centre, found[0].shape, path)
+    if len(shapes) == 1:
+        own = Target(name, shapes[0].centre, shapes[0].shape, path)
         return made._replace(found={**made.found, name: own})
     boxes = [
         Target(own, body.centre, body.shape, path)
-        for own, body in zip(_box_names(name, found, spec), found, strict=True)
+        for own, body in zip(_box_names(name, shapes, spec), shapes, strict=True)
     ]
     return made._replace(found={**made.found, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
 
 
-def _box_names(name: str, found: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:
+def _box_names(name: str, shapes: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:
     """Yield names for the bodies of a building: those of its parts where they are usable, else numbers."""
-    parts = Counter(body.name for body in found)
+    parts = Counter(body.name for body in shapes)
     numbers = (own for own in (f"{name}.{i}" for i in count(1)) if own not in spec.targets)
-    for body in found:
+    for body in shapes:
         own = f"{name}.{body.name}"
         usable = _PART.fullmatch(body.name) and parts[body.name] == 1 and own not in spec.targets
         yield own if usable else next(numbers)

@@ -42,8 +42,8 @@ def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     if not jumps:
         return None
     i = jumps[0]
-    way, lasts = dist(track.points[i], track.points[i + 1]), track.times[i + 1] - track.times[i]
-    notes = [f"{_rows(course, i)}: {way:.2f} m in {lasts:.3g} s, at t = {track.times[i]:.10g} s"]
+    distance, duration = dist(track.points[i], track.points[i + 1]), track.times[i + 1] - track.times[i]
+    notes = [f"{_rows(course, i)}: {distance:.2f} m in {duration:.3g} s, at t = {track.times[i]:.10g} s"]
     if len(jumps) > 1:
         notes.append(f"it does so {len(jumps)} times")
     remedy = _remedy(course, i)
@@ -51,7 +51,7 @@ def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     labels, raised = _labels(course, origins, _place(course, i), fastest)
     return Diagnostic(
         "M021",
-        f"target `{course.name}` jumps: {_speed(way / lasts)} is more than its top speed, "
+        f"target `{course.name}` jumps: {_speed(distance / duration)} is more than its top speed, "
         f"{_speed(course.top_speed)}",
         labels,
         tuple(notes),
@@ -87,7 +87,7 @@ def check_gap(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     if not gaps:
         return None
     i = max(gaps, key=lambda k: spaces[k])
-    way = dist(points[i], points[i + 1])
+    distance = dist(points[i], points[i + 1])
     more = f"; it is the longest of {len(gaps)} gaps" if len(gaps) > 1 else ""
     return Diagnostic(
         "M022",
@@ -96,7 +96,7 @@ def check_gap(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
         (
             f"{_rows(course, i)}: nothing from t = {times[i]:.10g} s to {times[i + 1]:.10g} s, "
             f"where rows are {usual:.3g} s apart as a rule{more}",
-            f"a straight line of {way:.1f} m is assumed across it",
+            f"a straight line of {distance:.1f} m is assumed across it",
         ),
         "give the rows in between, or film before or after the gap",
     )

@@ -45,7 +45,7 @@ def zones(
     spec: MissionSpec, put: Put, terrain: Terrain | None, origins: OriginMap
 ) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
     """Return the zones as solids, and the faults of polygons that enclose no area."""
-    found: list[Zone] = []
+    zones: list[Zone] = []
     faults: list[Diagnostic] = []
     for name, zone in spec.world.zones.items():
         path = ("world", "zones", name)
@@ -55,8 +55,8 @@ def zones(
             help_ = "list the corners in the order in which one walks round the zone"
             faults.append(Diagnostic("G007", f"the polygon of zone `{name}` {solid}", (label,), help=help_))
         else:
-            found.append(Zone(name, zone.keep, solid, path))
-    return tuple(found), faults
+            zones.append(Zone(name, zone.keep, solid, path))
+    return tuple(zones), faults
 
 
 def zone_counts_from_ground(zone: ZoneSpec) -> bool:
@@ -128,7 +128,7 @@ def _same(p: Vec2, q: Vec2) -> bool:
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:
     """Return the drones by name, with presets and the effect of wind on their speed, and their faults."""
-    found: dict[str, Drone] = {}
+    drones: dict[str, Drone] = {}
     faults: list[Diagnostic] = []
     wind = spec.world.wind
     density = density_at(0.0 if spec.world.origin is None else spec.world.origin.alt)
@@ -137,8 +137,8 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
         faults += becalmed("drone", resolved, wind.speed, origins)
         faults += beyond_model("drone", drone, resolved.path, origins)
         faults += another_lens(drone, resolved, origins)
-        found[name] = resolved
-    return found, faults
+        drones[name] = resolved
+    return drones, faults
 
 
 def resolve_drone(

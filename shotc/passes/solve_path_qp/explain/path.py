@@ -94,12 +94,12 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     """
     x, y, z = drone.home
     ways = (*(share * lack + NUDGE_M for share in FARTHER), *FAR_M)
-    for way, k in product(ways, range(PAD_DIRECTIONS)):
+    for metres, k in product(ways, range(PAD_DIRECTIONS)):
         angle = 2.0 * pi * k / PAD_DIRECTIONS
-        there = drone._replace(home=(round(x + way * sin(angle), 2), round(y + way * cos(angle), 2), z))
+        there = drone._replace(home=(round(x + metres * sin(angle), 2), round(y + metres * cos(angle), 2), z))
         free = transit_point(flight_space(mission, there), pad_space(mission, there), there)
         if not isinstance(free, PadBlocked):
-            return f"move home to {_point(np.array(there.home))}, {way:.2f} m away"
+            return f"move home to {_point(np.array(there.home))}, {metres:.2f} m away"
     return f"move home by more than {FAR_M[-1]:.0f} m"
 
 
@@ -223,8 +223,8 @@ def _no_way(
 
 def _ground_ends(terrain: Terrain, what: NoWay) -> str | None:
     """Return where there is no ground below the straight line between two places, or None."""
-    way = Pieces(np.zeros(1), np.ones(1), np.stack([what.start, what.end])[None])
-    out = leaves(terrain.ground, way)
+    segment = Pieces(np.zeros(1), np.ones(1), np.stack([what.start, what.end])[None])
+    out = leaves(terrain.ground, segment)
     return None if out is None else terrain.beyond_at(out.place, out.by)
 
 

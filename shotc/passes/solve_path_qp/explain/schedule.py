@@ -44,29 +44,29 @@ def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diag
 
 def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
     """Return T003: the drone arrives after the start of a shot on its own clock."""
-    asked, short = shot.timing.start, late.outside
-    label = mission.origins.key(shot.path) if asked is None else timing_value(mission, shot.path, "start")
-    starts = "has no start" if asked is None else f"starts at {plain(asked)} s"
-    labels, told = [label], f"shot `{shot.id}` {starts}"
+    start, short = shot.timing.start, late.outside
+    label = mission.origins.key(shot.path) if start is None else timing_value(mission, shot.path, "start")
+    starts = "has no start" if start is None else f"starts at {plain(start)} s"
+    labels, beginning = [label], f"shot `{shot.id}` {starts}"
     sum_up = f"{at_least(late.before[-1].end)} s, the last {late.run_up:.1f} s to come up to speed"
     notes = [f"before it come {phases_in_words(late.before)}: {sum_up}"]
     remedies = []
     if late.earliest is not None:
-        message = f"{told}, but {at_least(late.earliest)} s is the earliest possible"
+        message = f"{beginning}, but {at_least(late.earliest)} s is the earliest possible"
         remedies.append(
             f"give it `start: {at_least(late.earliest)} s`" + (" or later" if short is None else "")
         )
     elif short is not None:
-        message = f"{told}, and the track of `{short.target}` ends before its drone is there"
+        message = f"{beginning}, and the track of `{short.target}` ends before its drone is there"
     else:
-        message = f"{told}, and its drone does not catch up with what it films"
+        message = f"{beginning}, and its drone does not catch up with what it films"
         remedies += _catching_up(mission, shot, late.before[-1].end)
     if short is not None:
         path = mission.target(short.target).path
         labels.append(mission.origins.value((*path, "track"), f"{short.left:.1f} s are left of it then"))
         remedies = [f"{remedy} and {_shortened(short)}" for remedy in remedies]
-    if asked is not None:
-        remedies += _begun_later(mission, shot, asked, up(late.late))
+    if start is not None:
+        remedies += _begun_later(mission, shot, start, up(late.late))
     remedies.append(f"shorten what comes before, {ALONE}")
     return Diagnostic("T003", message, tuple(labels), tuple(notes), ", or ".join(remedies))
 
@@ -160,13 +160,13 @@ def _shortened(outside: OutsideTrack) -> str:
     return f"`duration: {left:.1f} s` or less" if left > 0 else ""
 
 
-def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> list[str]:
+def _begun_later(mission: MissionIR, shot: Shot, start: float, later: float) -> list[str]:
     """Return a remedy that delays the recordings of a shot, and so all of its shots; empty without any."""
     recorded = _recorded(mission, shot)
     if not recorded:
         return []
     starts = " and ".join(f"`begins: {plain(first + later)} s` of `{name}`" for name, first in recorded)
-    shots = f"every shot of it as much later, this one at `start: {plain(asked + later)} s`"
+    shots = f"every shot of it as much later, this one at `start: {plain(start + later)} s`"
     return [f"let its track begin {plain(later)} s later, or more ({starts}), and {shots}"]
 
 

@@ -18,12 +18,12 @@ def to_the_side(mission: MissionIR, after: Shot, left: ShotFrame, right: ShotFra
     The camera keeps its height and distance. Empty where these heights allow no such place, because from high
     above all sides look alike, and where the shot's kind has no key for an azimuth.
     """
-    found = _azimuth(left.offset, right.offset, apart)
-    if found is None:
+    azimuth_deg = _azimuth(left.offset, right.offset, apart)
+    if azimuth_deg is None:
         return ""
-    azimuth = f"{found % 360} deg"
+    azimuth = f"{azimuth_deg % 360} deg"
     if after.keyframes and after.keyframes[0].placed:
-        return f"begin `{after.id}` at {_place(right, found)}"
+        return f"begin `{after.id}` at {_place(right, azimuth_deg)}"
     key = next((key for key in _KEYS if (*after.path, key) in mission.origins.values), None)
     if after.ideal is not None and after.kind == "framing":
         return f"begin `{after.id}` at an azimuth of {azimuth} from `{right.names[0]}`"
@@ -42,9 +42,9 @@ def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
     if not -1.0 <= turn <= 1.0:
         return None
     middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
-    aside = degrees(acos(turn)) + 0.5  # so that a place rounded to centimetres is still beyond it
-    ways = (ceil(middle + aside), -ceil(aside - middle))
-    return min(ways, key=lambda way: abs(wrapped(radians(way - now))))
+    turn_deg = degrees(acos(turn)) + 0.5  # so that a place rounded to centimetres is still beyond it
+    ways = (ceil(middle + turn_deg), -ceil(turn_deg - middle))
+    return min(ways, key=lambda candidate: abs(wrapped(radians(candidate - now))))
 
 
 def _place(right: ShotFrame, azimuth: int) -> str:

@@ -58,10 +58,10 @@ def check_jump(
     if angle >= VIEWS_APART_RAD or not 1 / ALIKE_SIZE_RATIO < ratio < ALIKE_SIZE_RATIO:
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
-    aside = to_the_side(mission, after, left, right, VIEWS_APART_RAD)
-    ways = [aside] if aside else []
+    remedy = to_the_side(mission, after, left, right, VIEWS_APART_RAD)
+    ways = [remedy] if remedy else []
     ways += _as_far(mission, after, right, ratio) or [
-        f"begin {'it' if aside else f'`{after.id}`'} much nearer or much farther away"
+        f"begin {'it' if remedy else f'`{after.id}`'} much nearer or much farther away"
     ]
     return Diagnostic(
         "F002",

@@ -27,5 +27,5 @@ def lasting(mission: MissionIR, shot: Shot) -> Label:
 
 def framing(mission: MissionIR, shot: Shot) -> Label:
     """Return a label on what determines where a shot's camera looks."""
-    found = (key for key in ("heading", "look_at") if (*shot.path, key) in mission.origins.values)
-    return mission.origins.value((*shot.path, next(found, "kind")))
+    keys = (key for key in ("heading", "look_at") if (*shot.path, key) in mission.origins.values)
+    return mission.origins.value((*shot.path, next(keys, "kind")))

@@ -55,11 +55,11 @@ def side(seen: ShotFrame, *, pair: bool) -> float | None:
     """
     if pair:
         (_, a), (_, b) = sorted(zip(seen.names[:2], seen.centres[:2], strict=True))
-        way, origin = minus(b, a), tuple(0.5 * (p + q) for p, q in zip(a, b, strict=True))
-        length = hypot(way[0], way[1])
+        direction, origin = minus(b, a), tuple(0.5 * (p + q) for p, q in zip(a, b, strict=True))
+        length = hypot(direction[0], direction[1])
         if length < 1e-6:
             return None
-        x, y = way[0] / length, way[1] / length
+        x, y = direction[0] / length, direction[1] / length
         offset = minus(seen.eye, (origin[0], origin[1], origin[2]))
     elif seen.course is None:
         return None

@@ -139,8 +139,8 @@ def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> flo
         yaw = stated - before
     else:
         yaw = wrapped(b[0] - a[0])
-    way = hypot(yaw * cos(0.5 * (a[1] + b[1])), b[1] - a[1])
-    return way / (tan(keyframes[i].hfov / 2) + tan(keyframes[i + 1].hfov / 2))
+    angle = hypot(yaw * cos(0.5 * (a[1] + b[1])), b[1] - a[1])
+    return angle / (tan(keyframes[i].hfov / 2) + tan(keyframes[i + 1].hfov / 2))
 
 
 def _followed(stretch: Sequence[Keyframe]) -> str | None:

@@ -49,9 +49,9 @@ def check_pads_beside(mission: MissionIR) -> Iterator[Diagnostic]:
     """Yield the fleets of which drones stand in something, or take off into something."""
     for fleet in whole_fleets(mission.fleets):
         for mesh in mission.meshes:
-            found = _over_pads(fleet, mesh)
-            if (found.lack > ROUNDING_M).any():
-                yield _blocked(mission, fleet, mesh, found)
+            over = _over_pads(fleet, mesh)
+            if (over.lack > ROUNDING_M).any():
+                yield _blocked(mission, fleet, mesh, over)
                 break
 
 
@@ -76,16 +76,16 @@ def _over_pads(fleet: Fleet, mesh: ObstacleMesh) -> _Over:
     return _Over(lack, (x, y, z))
 
 
-def _blocked(mission: MissionIR, fleet: Fleet, mesh: ObstacleMesh, found: _Over) -> Diagnostic:
-    lacking, worst = int((found.lack > ROUNDING_M).sum()), int(found.lack.argmax())
-    owner = part_owner(mesh, found.place)
+def _blocked(mission: MissionIR, fleet: Fleet, mesh: ObstacleMesh, over: _Over) -> Diagnostic:
+    lacking, worst = int((over.lack > ROUNDING_M).sum()), int(over.lack.argmax())
+    owner = part_owner(mesh, over.place)
     labels = (
         mission.origins.value(pads_path(mission, fleet)),
         mission.origins.key(mesh.path, "the obstacle"),
     )
-    x, y, _ = found.place
+    x, y, _ = over.place
     note = (
-        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: {at_least(float(found.lack[worst]))} m are missing "
+        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: {at_least(float(over.lack[worst]))} m are missing "
         f"of the body radius of {fleet.radius:.2f} m that must be free on its way up"
     )
     message = f"{lacking} of {len(fleet.pads)} drones of {fleet.words} cannot rise clear of {owner.words}"
@@ -146,8 +146,8 @@ def _reaching(
     free = _free(mission, fleet, mesh)
     note = f"by {at_least(float(lack.max()))} m, the {free:.2f} m included that must be free"
     message = f"this {word} reaches into {owner.words}"
-    told = f"{help_}; the plan refuses drones that stand there"
-    return Diagnostic("D017", message, labels, (note,), told)
+    help_text = f"{help_}; the plan refuses drones that stand there"
+    return Diagnostic("D017", message, labels, (note,), help_text)
 
 
 def _free(mission: MissionIR, fleet: Fleet, mesh: ObstacleMesh) -> float:

@@ -63,7 +63,7 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
         yield Diagnostic("D019", message, labels, (note,), f"give it more than {shortest} s; {SHORTEST}")
 
 
-def _way(before: Picture, after: Picture) -> Vec3:
+def _transfer(before: Picture, after: Picture) -> Vec3:
     """Return the components of the shortest transfer from one picture's box to the next; 0 if unknown."""
     one, other = bounds(before.source), bounds(after.source)
     if one is None or other is None:
@@ -75,11 +75,11 @@ def _way(before: Picture, after: Picture) -> Vec3:
 
 
 def _gap(before: Picture, after: Picture) -> float:
-    return hypot(*_way(before, after))
+    return hypot(*_transfer(before, after))
 
 
 def _between(before: Picture, after: Picture, limits: Limits) -> float:
-    return _last(after) + least_travel([(0.0, 0.0, 0.0), _way(before, after)], limits)
+    return _last(after) + least_travel([(0.0, 0.0, 0.0), _transfer(before, after)], limits)
 
 
 def _last(picture: Picture) -> float:
@@ -205,7 +205,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
             faults.append(_early(mission, display, last, there, waits))
         begin = max(start or 0.0, there, waits)
         ends[display.id], late = _shown(display, begin, limits)
-        faults += [_late(mission, found) for found in late[:1]]
+        faults += [_late(mission, late_start) for late_start in late[:1]]
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
     for shot in mission.shots:
         waits = ends.get(shot.timing.after or "", 0.0)

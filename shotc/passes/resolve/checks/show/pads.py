@@ -59,7 +59,7 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
         return Diagnostic("D002", message, (_layout(mission, fleet),), (note,), help_)
     note = (
         f"{which}, as seen from above; bodies with a radius of {fleet.radius:.2f} m that rise past each "
-        f"other ask for {_asked(bodies)}"
+        f"other ask for {_needed(bodies)}"
     )
     message = f"the pads of {fleet.words} are too near to each other"
     return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
@@ -82,8 +82,8 @@ def _mixed(mission: MissionIR, fleet: Fleet, groups: Sequence[Fleet]) -> Iterato
         )
         first, second = one.numbers[near.one], other.numbers[near.other]
         note = (
-            f"pads {first} and {second} are {near.share * reach:.2f} m apart; {_asked(fleet.apart)} is asked "
-            "for between drones that do not take off together"
+            f"pads {first} and {second} are {near.share * reach:.2f} m apart; {_needed(fleet.apart)} is "
+            "asked for between drones that do not take off together"
         )
         help_ = (
             f"{wider(mission, fleet, spacing(fleet.apart))}, or leave that much room between the pads of the "
@@ -100,7 +100,7 @@ def _many_layers(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     if layers <= MOST_LAYERS:
         return None
     note = (
-        f"within the fleet's separation of {_asked(fleet.apart)} are {layers} pads: it would take off in as "
+        f"within the fleet's separation of {_needed(fleet.apart)} are {layers} pads: it would take off in as "
         f"many layers or more, and {MOST_LAYERS} is the most"
     )
     message = f"the pads of {fleet.words} are too near to each other"
@@ -108,7 +108,7 @@ def _many_layers(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
 
 
-def _asked(apart: Apart) -> str:
+def _needed(apart: Apart) -> str:
     margin = f", its margin of {apart.margin:.2f} m included" if apart.margin else ""
     return f"{apart.across:.2f} m side by side{margin}"
 
@@ -117,7 +117,7 @@ def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
     """Return a label on the number, or the file, that determines the distance of pads."""
     path = (*fleet.path, "layout")
     ways = (("grid", "spacing"), ("circle", "radius"), ("file",))
-    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
+    written = ((*path, *key) for key in ways if (*path, *key) in mission.origins.values)
     return mission.origins.value(next(written, path), text)
 
 
@@ -138,7 +138,7 @@ def _too_near(mission: MissionIR, one: Fleet, other: Fleet, *, advise: bool = Tr
     message = f"the pads of fleets `{one.name}` and `{other.name}` are too near to each other"
     labels = (_place(mission, other), _place(mission, one, "the other fleet"))
     which = f"pad {near.one + 1} of `{one.name}` and pad {near.other + 1} of `{other.name}`"
-    note = f"{which} are {near.share * apart.across:.2f} m apart; {_asked(apart)} is asked for"
+    note = f"{which} are {near.share * apart.across:.2f} m apart; {_needed(apart)} is asked for"
     help_ = _moved(mission, one, other) if advise else ""
     return Diagnostic("D005", message, labels, (note,), help_)
 
@@ -157,14 +157,14 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
         low, high = min(p[axis] for p in standing.pads), max(p[axis] for p in standing.pads)
         first, last = min(p[axis] for p in moved.pads), max(p[axis] for p in moved.pads)
         ways += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
-    for by, axis, way in sorted(ways, key=lambda found: abs(found[0])):
+    for by, axis, direction in sorted(ways, key=lambda option: abs(option[0])):
         x, y = (by, 0.0) if axis == 0 else (0.0, by)
-        there = _aside(mission, moved, (x, y))
+        there = _displaced(mission, moved, (x, y))
         others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
         if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and rises(
             mission, there
         ):
-            return f"move `{moved.name}` {abs(by):.2f} m {way}{_anchored(mission, moved, there)}"
+            return f"move `{moved.name}` {abs(by):.2f} m {direction}{_anchored(mission, moved, there)}"
     return ""
 
 
@@ -201,7 +201,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         yield Diagnostic("D006", message, (label,), (note,), help_)
         return
     obstacles = clearances_of(mission, fleet)
-    blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
+    blocked = [fault for obstacle in obstacles if (fault := _blocked(mission, fleet, obstacle)) is not None]
     yield from blocked
     if not blocked:
         yield from _low_rise(mission, fleet, obstacles, min(over))
@@ -217,7 +217,7 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnosti
     """Return the fault of pads with an obstacle in or above them: how many, and the worst, or None."""
     tops = take_off_of(fleet)
     rooms = [take_off_room(pad, pad[2] + tops.top(i), obstacle) for i, pad in enumerate(fleet.pads)]
-    lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING_M]
+    lacking = [i for i, distance in enumerate(rooms) if distance < fleet.radius - ROUNDING_M]
     if not lacking:
         return None
     worst = min(lacking, key=lambda i: rooms[i])
@@ -245,10 +245,12 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
     if len(fleet.pads) > MANY:
         return "move the layout, or the obstacle"
     for metres in range(1, FARTHEST + 1):
-        for x, y, way in ((1, 0, "east"), (-1, 0, "west"), (0, 1, "north"), (0, -1, "south")):
-            there = _aside(mission, fleet, (float(x * metres), float(y * metres)))
+        for x, y, toward in ((1, 0, "east"), (-1, 0, "west"), (0, 1, "north"), (0, -1, "south")):
+            there = _displaced(mission, fleet, (float(x * metres), float(y * metres)))
             if free(there):
-                return f"move the layout {metres} m {way}{_anchored(mission, fleet, there)}, or the obstacle"
+                return (
+                    f"move the layout {metres} m {toward}{_anchored(mission, fleet, there)}, or the obstacle"
+                )
     return "move the layout, or the obstacle"
 
 
@@ -265,20 +267,20 @@ def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
     return fleet._replace(pads=tuple((px + x, py + y, pz + z) for px, py, pz in fleet.pads))
 
 
-def _aside(mission: MissionIR, fleet: Fleet, by: Vec2) -> Fleet:
+def _displaced(mission: MissionIR, fleet: Fleet, by: Vec2) -> Fleet:
     """Return a fleet moved on the map, each pad as high over the ground as it was."""
     over, there = over_ground(mission, fleet), _shifted(fleet, (*by, 0.0))
     pads = zip(there.pads, over, strict=True)
     return there._replace(pads=tuple((x, y, mission.ground(x, y) + height) for (x, y, _), height in pads))
 
 
-def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> str:
+def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, distance: float) -> str:
     """Return the numbers of the pad with the least distance, as a note."""
     (x, y, _), top = fleet.pads[worst], take_off_of(fleet).top(worst)
     if obstacle.inside:
-        where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
+        where = f"{distance:.2f} m from its border" if distance > 0 else f"{-distance:.2f} m outside"
     else:
-        where = f"{room:.2f} m away from it" if room > 0 else f"{abs(room):.2f} m deep in it"
+        where = f"{distance:.2f} m away from it" if distance > 0 else f"{abs(distance):.2f} m deep in it"
     return (
         f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: on its {top:.1f} m up it is {where}; the "
         f"body radius of {fleet.radius:.2f} m must be free"
@@ -322,7 +324,7 @@ def _low_rise(
     floors += [
         (o.solid.bottom, lowest, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside
     ]
-    floor_, from_, what, path = max(floors, key=lambda found: found[0] - found[1])
+    floor_, from_, what, path = max(floors, key=lambda floor_entry: floor_entry[0] - floor_entry[1])
     lacks = floor_ + fleet.radius - from_ - fleet.rise
     if lacks <= ROUNDING_M:
         return

@@ -162,7 +162,7 @@ def _inside(
         return
     walls = zone.solid._replace(bottom=-inf, top=inf)
     rooms = [-signed_distance(walls, ball.centre) - ball.radius for ball in shape]
-    outside = all(room + 2 * ball.radius <= 0 for room, ball in zip(rooms, shape, strict=True))
+    outside = all(distance + 2 * ball.radius <= 0 for distance, ball in zip(rooms, shape, strict=True))
     lacks = fleet.radius - min(rooms)
     if lacks <= ROUNDING_M:
         return
@@ -193,12 +193,12 @@ def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ba
     if centre is None or len(shape) * len(around) > MANY:
         return ""
     for metres in range(1, FARTHEST + 1):
-        for (x, y, z), way in WAYS:
+        for (x, y, z), direction in WAYS:
             by = (x * metres, y * metres, z * metres)
             there = tuple(ball._replace(centre=_plus(ball.centre, by)) for ball in shape)
             if _high_enough(mission, fleet, there) and all(is_clear(there, o, fleet.radius) for o in around):
                 to = ", ".join(f"{c + 0.0:.2f}" for c in _plus(centre, by))
-                return f"move it {metres} m {way}, to `center: [{to}]`"
+                return f"move it {metres} m {direction}, to `center: [{to}]`"
     return ""
 
 
@@ -216,9 +216,9 @@ def _plus(p: Vec3, by: Vec3) -> Vec3:
     return (p[0] + by[0], p[1] + by[1], p[2] + by[2])
 
 
-def _fitted(picture: Picture, reach: tuple[float, float], room: tuple[float, float]) -> str:
+def _fitted(picture: Picture, reach: tuple[float, float], free: tuple[float, float]) -> str:
     """Return how to fit a shape that reaches from one height to another between two others, metres."""
-    (low, high), (bottom, top) = reach, room
+    (low, high), (bottom, top) = reach, free
     if high - low > top - bottom:
         factor = (top - bottom) / (high - low)
         smaller = resized(picture.source, lambda metres: down(metres * factor, 1))
