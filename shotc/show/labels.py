@@ -86,5 +86,5 @@ def pads_path(mission: MissionIR, fleet: Fleet) -> KeyPath:
     """
     path = (*fleet.path, "layout")
     ways = (("grid", "origin"), ("circle", "center"), ("file",))
-    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
+    written = ((*path, *key) for key in ways if (*path, *key) in mission.origins.values)
     return next(written, path)

@@ -82,12 +82,12 @@ class Misled:
 def lags(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[tuple[Lag, ...]]:
     """Return for every run how far a drone falls behind in each replanned shot; () without replanning."""
     shots = replanned(world.mission, track) if world.conditions.loop == "replan" else ()
-    found = [
+    lags_of_shots = [
         list(_lags(world, track, flown, (shot.phase, name)))
         for shot in shots
         for name in _moving(world, shot)
     ]
-    return [tuple(each[r] for each in found) for r in range(len(world.runs))]
+    return [tuple(each[r] for each in lags_of_shots) for r in range(len(world.runs))]
 
 
 def misled(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Misled]:
@@ -111,11 +111,11 @@ def needed(mission: MissionIR) -> float:
     A drone that is farther off its plan can touch what the plan is proved to be clear of.
     """
     rules = mission.rules
-    asked = [rules.ground_clearance]
-    asked += [rules.target_clearance] if mission.targets else []
-    asked += [rules.obstacle_clearance] if mission.meshes else []
-    asked += [rules.separation] if len(mission.drones) > 1 else []
-    return max(LEAST_STRAY_M, min(asked))
+    clearances = [rules.ground_clearance]
+    clearances += [rules.target_clearance] if mission.targets else []
+    clearances += [rules.obstacle_clearance] if mission.meshes else []
+    clearances += [rules.separation] if len(mission.drones) > 1 else []
+    return max(LEAST_STRAY_M, min(clearances))
 
 
 def _moving(world: World, shot: Anew) -> tuple[str, ...]:

@@ -168,11 +168,11 @@ def _untrue(mission: MissionIR, name: str, track: Track, end: float) -> Iterator
             help="give it rows until the landing",
         )
     for i, (a, b) in enumerate(pairwise(track.points)):
-        since, lasts = track.times[i], track.times[i + 1] - track.times[i]
-        if dist(a, b) > TOP_SPEED_M_S * lasts:
+        start, duration = track.times[i], track.times[i + 1] - track.times[i]
+        if dist(a, b) > TOP_SPEED_M_S * duration:
             yield Diagnostic(
                 "W004",
-                f"the true track of `{name}` jumps {dist(a, b):.1f} m in {lasts:.3g} s at {since:g} s",
+                f"the true track of `{name}` jumps {dist(a, b):.1f} m in {duration:.3g} s at {start:g} s",
                 (label,),
                 help=f"nothing that is filmed moves faster than {TOP_SPEED_M_S:g} m/s: mend the rows there",
             )

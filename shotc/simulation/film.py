@@ -93,27 +93,29 @@ def film_of(mission: MissionIR, track: DroneTrajectory) -> PlanSamples:
 
 
 def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[FramedTarget, ...]:
-    wanted: dict[str, Array] = {}
+    by_target: dict[str, Array] = {}
     for phase in track.phases:
         if phase.shot is None:
             continue
         inside = (times >= phase.start) & (times <= phase.end)
         for target in subjects(mission, track, phase.shot):
-            into = wanted.setdefault(target, np.full((len(times), 2), np.nan))
+            into = by_target.setdefault(target, np.full((len(times), 2), np.nan))
             into[inside] = references(track, phase.shot, target, times[inside])
-    return tuple(_led_in(name, uv) for name, uv in wanted.items() if np.isfinite(uv).any())
+    return tuple(_led_in(name, uv) for name, uv in by_target.items() if np.isfinite(uv).any())
 
 
-def _led_in(name: str, wanted: Array) -> FramedTarget:
+def _led_in(name: str, reference: Array) -> FramedTarget:
     """Return a target that the camera begins to follow LEAD_S before a shot and releases as
     slowly after it.
     """
-    asked = np.isfinite(wanted[:, 0])
-    steps, rows = round(LEAD_S / STEP_S), np.arange(len(wanted))
-    at = rows[asked]
+    framed = np.isfinite(reference[:, 0])
+    steps, rows = round(LEAD_S / STEP_S), np.arange(len(reference))
+    at = rows[framed]
     before, after = np.searchsorted(at, rows, side="right") - 1, np.searchsorted(at, rows)
-    since = np.where(before >= 0, rows - at[np.maximum(before, 0)], np.inf)
-    until = np.where(after < len(at), at[np.minimum(after, len(at) - 1)] - rows, np.inf)
-    nearest = np.where(since <= until, at[np.maximum(before, 0)], at[np.minimum(after, len(at) - 1)])
-    share = np.clip(1.0 - np.minimum(since, until) / steps, 0.0, 1.0)
-    return FramedTarget(name, np.where(share[:, None] > 0.0, wanted[nearest], np.nan), share)
+    before_steps = np.where(before >= 0, rows - at[np.maximum(before, 0)], np.inf)
+    after_steps = np.where(after < len(at), at[np.minimum(after, len(at) - 1)] - rows, np.inf)
+    nearest = np.where(
+        before_steps <= after_steps, at[np.maximum(before, 0)], at[np.minimum(after, len(at) - 1)]
+    )
+    share = np.clip(1.0 - np.minimum(before_steps, after_steps) / steps, 0.0, 1.0)
+    return FramedTarget(name, np.where(share[:, None] > 0.0, reference[nearest], np.nan), share)

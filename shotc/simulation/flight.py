@@ -129,10 +129,10 @@ def fly(
             for target in targets:
                 target.look(k, film, conditions, (state.position, believed), attitude)
                 target.learn(float(film.times[k]))
-            wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
-            attitude = turned(gimbal, attitude, wanted, rate, STEPS_PER_RECORD * STEP_S)
-        asked = guidance.setpoint(k, (state.position + off, state.velocity))
-        state = plant.carried(state, *steered(vehicle, state, asked, off), world.steady + gusts[k])
+            attitudes, rate = _demanded(world, film, k, (believed, state.velocity), targets)
+            attitude = turned(gimbal, attitude, attitudes, rate, STEPS_PER_RECORD * STEP_S)
+        setpoint = guidance.setpoint(k, (state.position + off, state.velocity))
+        state = plant.carried(state, *steered(vehicle, state, setpoint, off), world.steady + gusts[k])
     return into.done(film, guidance)
 
 
@@ -161,7 +161,7 @@ def _watched(world: World, film: PlanSamples) -> tuple[TrackedTarget, ...]:
     return tuple(watched(world, film, framed) for framed in moving)
 
 
-def _asked(
+def _demanded(
     world: World, film: PlanSamples, k: int, drone: tuple[Array, Array], targets: tuple[TrackedTarget, ...]
 ) -> tuple[Array, Array]:
     """Return the demanded attitudes of cameras, (R, 3, 3), and their rates, (R, 3).
@@ -171,7 +171,7 @@ def _asked(
     drone : estimated positions of the drones and their velocities, (R, 3) each
     """
     yaw, pitch, rates = film.yaw[k], film.pitch[k], np.array([film.yaw_rate[k], film.pitch_rate[k]])
-    asked = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
+    angles = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
     framed = () if world.conditions.loop == "replay" else film.framed
     aims = [
         (each.share[k], _aim(film, k, each.wanted, drone, _known(world, each.target, targets, film.times[k])))
@@ -179,12 +179,12 @@ def _asked(
         if each.share[k] > 0.0
     ]
     if aims:
-        away = np.mean([share * _beyond(aim, asked) for share, aim in aims], axis=0)
-        asked = asked + away
+        away = np.mean([share * _beyond(aim, angles) for share, aim in aims], axis=0)
+        angles = angles + away
         low, high = film.drone.gimbal.pitch
-        asked[:, 1] = np.clip(asked[:, 1], low, high)
-    axes = axes_of(asked[:, 0], asked[:, 1])
-    return axes, turn_rate(axes, asked[:, 2], asked[:, 3])
+        angles[:, 1] = np.clip(angles[:, 1], low, high)
+    axes = axes_of(angles[:, 0], angles[:, 1])
+    return axes, turn_rate(axes, angles[:, 2], angles[:, 3])
 
 
 def _beyond(aim: Array, planned: Array) -> Array:
@@ -204,14 +204,14 @@ def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: fl
 
 
 def _aim(
-    film: PlanSamples, k: int, wanted: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
+    film: PlanSamples, k: int, angles: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
 ) -> Array:
     """Return yaw, pitch and their rates, (R, 4), that keep a target at its reference on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
     # After its last frame a target has no place on screen.
-    soon = min(k + STEPS_PER_RECORD, len(wanted) - 1)
-    n, next_ = len(offset), soon if np.isfinite(wanted[soon, 0]) else k
-    now, later = (Shown(np.tile(wanted[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
+    soon = min(k + STEPS_PER_RECORD, len(angles) - 1)
+    n, next_ = len(offset), soon if np.isfinite(angles[soon, 0]) else k
+    now, later = (Shown(np.tile(angles[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
     rates = aim_rates(offset, velocity, now, later, STEPS_PER_RECORD * STEP_S)
     return np.column_stack([*aimed(offset, *now), *rates])
 

@@ -60,16 +60,16 @@ def turn_rate(axes: Array, yaw_rate: Array, pitch_rate: Array) -> Array:
     return np.asarray(out)
 
 
-def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, step: float) -> Attitude:
+def turned(gimbal: GimbalModel, attitude: Attitude, demanded: Array, rate: Array, step: float) -> Attitude:
     """Return cameras a step later, with demanded attitudes (R, 3, 3) that turn at ``rate`` (R, 3), in W.
 
     The control law is omega = k (R_e - R_e^T)^vee / 2 + the demanded rate, with R_e = R^T R* (Lee et al.
     2010). In W it is half the sum of the cross products of the axes. The motors' lag follows, and R <-
     exp(omega h) R.
     """
-    error = 0.5 * cross(np.swapaxes(attitude.axes, 1, 2), np.swapaxes(wanted, 1, 2)).sum(axis=1)
-    asked = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
-    omega = attitude.rate + (asked - attitude.rate) * (1.0 - exp(-step / gimbal.lag))
+    error = 0.5 * cross(np.swapaxes(attitude.axes, 1, 2), np.swapaxes(demanded, 1, 2)).sum(axis=1)
+    command = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
+    omega = attitude.rate + (command - attitude.rate) * (1.0 - exp(-step / gimbal.lag))
     return Attitude(rotated(attitude.axes, omega * step), omega)
 
 

@@ -120,7 +120,7 @@ class Guidance:
             self._leave(time)
         if self._active is None or self._held is None:
             return self.film.setpoint(k) if self._back is None else self._back.setpoint(time)
-        if self._due(time):
+        if self._replan_due(time):
             self._replan(self._active, time, drone)
         return self._mixed(time)
 
@@ -139,11 +139,11 @@ class Guidance:
             np.where(away, held.acceleration, back.acceleration),
         )
 
-    def _due(self, time: float) -> bool:
+    def _replan_due(self, time: float) -> bool:
         """Return whether a replan is due at a step."""
         assert self._active is not None
-        since = self.film.step(time) - self.film.step(self._active.phase.start)
-        return since % round(PERIOD_S / STEP_S) == 0
+        steps = self.film.step(time) - self.film.step(self._active.phase.start)
+        return steps % round(PERIOD_S / STEP_S) == 0
 
     def _begin(self, shot: Anew, time: float) -> None:
         self._take(shot)
@@ -183,8 +183,8 @@ class Guidance:
     def _leave(self, time: float) -> None:
         """Start the drones' return to their plan after a shot."""
         following = [p.start for p in self.film.track.phases if p.start >= time and _exact(p)]
-        until = min(time + MOST_BACK_S, *following, float(self.film.times[-1]))
-        self._take(Rejoined(Phase("transit", None, time, until)))
+        end = min(time + MOST_BACK_S, *following, float(self.film.times[-1]))
+        self._take(Rejoined(Phase("transit", None, time, end)))
         self._back = Fading.none(self.film, len(self.world.runs))
 
     def _come_back(self, shot: Rejoined, time: float) -> None:
@@ -198,9 +198,9 @@ class Guidance:
         now, plan = self._held.setpoint(time), self.film.setpoint(self.film.step(time))
         off, rate = now.position - plan.position, now.velocity - plan.velocity
         for r in np.flatnonzero(self._away).tolist():
-            lasts = max(BACK_S, 4.0 * float(np.abs(off[r]).max()) / self.film.drone.limits.slowest)
-            back = self._back.begun(r, time, lasts, (off[r], rate[r]))
-            times = np.arange(time, min(time + lasts, shot.phase.end), STAGE_S)
+            duration = max(BACK_S, 4.0 * float(np.abs(off[r]).max()) / self.film.drone.limits.slowest)
+            back = self._back.begun(r, time, duration, (off[r], rate[r]))
+            times = np.arange(time, min(time + duration, shot.phase.end), STAGE_S)
             lack = self._standing.lack(back.places(r, times))
             if (lack <= np.maximum(self._standing.lack(self.film.places(times)), 0.0) + NEARER_M).all():
                 self._back, self._away[r] = back, False
@@ -236,7 +236,7 @@ class Guidance:
                 plans.append(None)
                 continue
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
-            plans.append(self._asked(r, situation, stages))
+            plans.append(self._replanned(r, situation, stages))
         self._held = self._held.replaced(plans)
         if self.own is not None:
             self.own.add(time, self._held.plans)
@@ -252,7 +252,7 @@ class Guidance:
         ]
         return Traffic(np.array(places).reshape(-1, len(stages), 3), tuple(cones))
 
-    def _asked(self, run: int, situation: Any, stages: Array) -> Plan | None:
+    def _replanned(self, run: int, situation: Any, stages: Array) -> Plan | None:
         """Return a new plan of a run; None if there is none, so that the last one is flown to its end.
 
         A replanner that hangs is not asked again in the shot: it would take its time limit twice a second.
@@ -286,10 +286,10 @@ class Guidance:
         """
         assert self._course is not None
         if isinstance(shot, Chased) and shot.turns:
-            track, way = self.world.mission.target(shot.target).track, known[shot.target].now.way
+            track, velocity = self.world.mission.target(shot.target).track, known[shot.target].now.way
             assert track is not None
-            moves = np.hypot(way[:, 0], way[:, 1]) > STILL_M_S
-            course = np.arctan2(way[:, 1], way[:, 0])
+            moves = np.hypot(velocity[:, 0], velocity[:, 1]) > STILL_M_S
+            course = np.arctan2(velocity[:, 1], velocity[:, 0])
             turned = wrapped(course - track.heading(time) - self._course)
             self._course = np.where(moves, self._course + _SHARE * turned, self._course)
         return self._course
@@ -301,8 +301,8 @@ class Guidance:
         assert self._rise is not None
         if isinstance(shot, Chased):
             planned = self.world.mission.target(shot.target).at(time)[2]
-            found = known[shot.target].now.position[:, 2] - planned
-            self._rise = self._rise + _SHARE * (found - self._rise)
+            rise = known[shot.target].now.position[:, 2] - planned
+            self._rise = self._rise + _SHARE * (rise - self._rise)
         return self._rise
 
 

@@ -222,12 +222,12 @@ def _filmed(mission: MissionIR, track: DroneTrajectory) -> Iterator[_Filmed]:
 def _picture(
     world: World, track: DroneTrajectory, flown: DroneRuns, run: int, filmed: _Filmed
 ) -> TargetFraming:
-    shot, name, times, wanted = filmed
+    shot, name, times, reference = filmed
     target = world.target(name, run, times)
     eyes = cameras_of(world.mission, track, flown, run, times)
     seen = frames(beside_cameras(eyes, target, times), target.centre, shapes(target, times))
-    error = np.hypot(seen.u - wanted[:, 0], seen.v - wanted[:, 1])
-    error = np.where(np.isnan(seen.u) & ~np.isnan(wanted[:, 0]), np.inf, error)
+    error = np.hypot(seen.u - reference[:, 0], seen.v - reference[:, 1])
+    error = np.where(np.isnan(seen.u) & ~np.isnan(reference[:, 0]), np.inf, error)
     known = error[~np.isnan(error)]
     picture = TargetFraming(
         shot,

@@ -194,10 +194,10 @@ def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
 def ahead(estimate: Estimate, seconds: Array, model: MotionModel) -> Array:
     """Return predicted position and velocity after times (M,), seconds, shape (M, R, 6), metres and m/s."""
     span, left = model.span(seconds)[:, None, None], np.asarray(seconds)[:, None, None]
-    way, beside = estimate.way, estimate.velocity - estimate.way
+    course, beside = estimate.way, estimate.velocity - estimate.way
     kept = 1.0 - span / model.memory
-    place = estimate.position + left * way + span * beside
-    return np.concatenate([place, way + kept * beside], axis=2)
+    place = estimate.position + left * course + span * beside
+    return np.concatenate([place, course + kept * beside], axis=2)
 
 
 @lru_cache(maxsize=1024)
@@ -208,8 +208,8 @@ def _transition(dt: float, model: MotionModel) -> tuple[Array, Array]:
     forward[:3, :3], forward[3, 3] = _forward(dt, model), kept
     fresh = np.diag([0.0, model.agility, model.drift])
     for node, weight in zip(NODES, WEIGHTS, strict=True):
-        since = _forward(0.5 * dt * (1.0 + node), model)
-        noise[:3, :3] += 0.5 * dt * weight * since @ fresh @ since.T
+        transition = _forward(0.5 * dt * (1.0 + node), model)
+        noise[:3, :3] += 0.5 * dt * weight * transition @ fresh @ transition.T
     noise[3, 3] = model.bias**2 * (1.0 - kept * kept)
     return np.asarray(np.kron(forward, np.eye(3))), np.asarray(np.kron(noise, np.eye(3)))
 

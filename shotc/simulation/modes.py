@@ -68,22 +68,22 @@ def stepped(modes: Modes, time: float, models: tuple[MotionModel, ...]) -> Modes
 
 def taken(modes: Modes, measurement: Measurement) -> Modes:
     """Return the estimates updated with a measurement of the same time."""
-    found = [measurement.taken(estimate) for estimate in modes.estimates]
-    if len(found) == 1:
-        return Modes((found[0].estimate,), modes.share)
-    fit = np.stack([each.fit for each in found], axis=1)
+    updates = [measurement.taken(estimate) for estimate in modes.estimates]
+    if len(updates) == 1:
+        return Modes((updates[0].estimate,), modes.share)
+    fit = np.stack([each.fit for each in updates], axis=1)
     share = np.maximum(modes.share * np.exp(fit - fit.max(axis=1, keepdims=True)), LEAST_SHARE)
-    return Modes(tuple(each.estimate for each in found), share / share.sum(axis=1, keepdims=True))
+    return Modes(tuple(each.estimate for each in updates), share / share.sum(axis=1, keepdims=True))
 
 
 def expected(modes: Modes, times: Array, models: tuple[MotionModel, ...]) -> Array:
     """Return position and velocity at times (M,), the mean of the models' predictions by weight;
     (M, R, 6).
     """
-    found = [
+    predictions = [
         ahead(each, times - modes.time, model) for each, model in zip(modes.estimates, models, strict=True)
     ]
-    return np.asarray(np.einsum("kmrd,rk->mrd", np.array(found), modes.share))
+    return np.asarray(np.einsum("kmrd,rk->mrd", np.array(predictions), modes.share))
 
 
 def _joined(estimates: tuple[Estimate, ...], share: Array) -> Estimate:

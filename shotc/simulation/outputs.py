@@ -26,10 +26,10 @@ def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]
 
     plan : the simulated plan
     """
-    found = summary(done)
+    described = summary(done)
     made = [
         Artifact("simulate.json", json_text(done).encode("ascii")),
-        report(plan, Simulated(found.flown, found.tables, (*found.asked, *found.notes))),
+        report(plan, Simulated(described.flown, described.tables, (*described.asked, *described.notes))),
     ]
     if not done.ir.drones:
         return Emission((*made, Artifact("simulate.png", draw(done))))

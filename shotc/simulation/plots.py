@@ -63,17 +63,19 @@ def _title(done: Rehearsed) -> str:
 
 
 def _panels(done: Rehearsed) -> list[_Panel]:
-    asked = done.promise
-    least = None if asked.in_frame is None else 100 * asked.in_frame
-    clear = 0.0 if asked.clearance is None else asked.clearance
+    promise = done.promise
+    least = None if promise.in_frame is None else 100 * promise.in_frame
+    clear = 0.0 if promise.clearance is None else promise.clearance
     pictures = [
         _Panel("Whole target in frame, worst shot", "% of frames", lambda run: 100 * run.in_frame, least),
-        _Panel("Mean distance on screen, worst shot", "half frames", lambda run: run.error, asked.mean_error),
+        _Panel(
+            "Mean distance on screen, worst shot", "half frames", lambda run: run.error, promise.mean_error
+        ),
     ]
     return [
         *(pictures if done.runs[0].pictures else ()),
         _Panel("Least distance of a body from anything", "m", lambda run: run.clearance, clear),
-        _Panel("Farthest from the plan", "m", lambda run: run.stray, asked.stray),
+        _Panel("Farthest from the plan", "m", lambda run: run.stray, promise.stray),
     ]
 
 

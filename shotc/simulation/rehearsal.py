@@ -92,34 +92,34 @@ class Rehearsed:
         return self.held >= self.needed
 
 
-def conditions_of(mission: MissionIR, asked: RehearsalOptions) -> Conditions:
+def conditions_of(mission: MissionIR, options: RehearsalOptions) -> Conditions:
     """Return the conditions of a mission and a command line."""
     usual = mission.rehearsal or SILENT
     wind = usual.wind or Wind(mission.wind, mission.wind_toward)
     return Conditions(
-        loop=asked.loop or usual.loop,
+        loop=options.loop or usual.loop,
         wind=air.WindField(
-            speed=_either(asked.wind, wind.speed),
-            toward=wind.toward if asked.bearing is None else yaw_of(radians(asked.bearing) + pi),
-            gusts=_either(asked.gusts, usual.gusts),
+            speed=_either(options.wind, wind.speed),
+            toward=wind.toward if options.bearing is None else yaw_of(radians(options.bearing) + pi),
+            gusts=_either(options.gusts, usual.gusts),
         ),
-        gps=replace(GRADES[asked.gps or usual.gps], offset=(asked.bias, 0.0, 0.0), lost=asked.lost),
-        truth=replace(asked.truth, wander=_either(asked.wander, usual.wander)),
-        seed=asked.seed,
-        replanner=asked.replanner,
-        vehicle=asked.vehicle,
+        gps=replace(GRADES[options.gps or usual.gps], offset=(options.bias, 0.0, 0.0), lost=options.lost),
+        truth=replace(options.truth, wander=_either(options.wander, usual.wander)),
+        seed=options.seed,
+        replanner=options.replanner,
+        vehicle=options.vehicle,
     )
 
 
-def _either(asked: float | None, usual: float) -> float:
-    return usual if asked is None else asked
+def _either(given: float | None, usual: float) -> float:
+    return usual if given is None else given
 
 
-def runs_of(ir: TrajectoryIR, conditions: Conditions, asked: RehearsalOptions) -> int:
+def runs_of(ir: TrajectoryIR, conditions: Conditions, options: RehearsalOptions) -> int:
     """Return the number of runs of a mission and a command line; one if all runs are equal."""
     if alike(ir, conditions):
         return 1
-    return asked.runs or (ir.keyframes.mission.rehearsal or SILENT).runs
+    return options.runs or (ir.keyframes.mission.rehearsal or SILENT).runs
 
 
 def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
@@ -136,15 +136,15 @@ def rehearse(
     done : called with the number of finished runs
     """
     promise = (ir.keyframes.mission.rehearsal or SILENT).promise
-    found: list[RunBlock] = []
+    flown: list[RunBlock] = []
     for block in blocks:
-        found.append(block)
-        done(sum(len(each.runs) for each in found))
-    found.sort(key=lambda block: block.runs[0].number)
-    runs = tuple(run for block in found for run in block.runs)
-    told = verdicts(runs, promise)
-    kept, needed = held(runs, told), enough(runs, promise)
-    return Rehearsed(ir, conditions, promise, runs, told, kept, needed, _together(found))
+        flown.append(block)
+        done(sum(len(each.runs) for each in flown))
+    flown.sort(key=lambda block: block.runs[0].number)
+    runs = tuple(run for block in flown for run in block.runs)
+    verdicts_of_runs = verdicts(runs, promise)
+    kept, needed = held(runs, verdicts_of_runs), enough(runs, promise)
+    return Rehearsed(ir, conditions, promise, runs, verdicts_of_runs, kept, needed, _together(flown))
 
 
 def _together(blocks: list[RunBlock]) -> Strays | None:

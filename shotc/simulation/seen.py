@@ -75,9 +75,9 @@ class TrackedTarget:
         really, believed = eyes
         half = np.broadcast_to(film.half[k], (len(really), 2))
         uv, _ = projection(self.places[k] - really, attitude.axes, half)
-        found, used = detector.found(uv, self.chances)
+        detected, used = detector.found(uv, self.chances)
         time = float(film.times[k])
-        fix = PictureFix(time, found, believed, attitude.axes, half, detector.noise, used)
+        fix = PictureFix(time, detected, believed, attitude.axes, half, detector.noise, used)
         heappush(self.waiting, (time + detector.delay, next(self.numbers), fix))
 
     def learn(self, time: float) -> None:
@@ -87,8 +87,8 @@ class TrackedTarget:
 
     def foreseen(self, times: Array) -> Foreseen:
         """Return what is known at the first of some times (M,), and where the target is expected at each."""
-        found = self.tracker.ahead(times)
-        return Foreseen(self.tracker.now(float(times[0])), found[..., :3], found[..., 3:])
+        states = self.tracker.ahead(times)
+        return Foreseen(self.tracker.now(float(times[0])), states[..., :3], states[..., 3:])
 
 
 def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTarget:

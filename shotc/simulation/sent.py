@@ -42,13 +42,13 @@ class Fading:
         """Return the state without any offset."""
         return Fading(film, np.zeros(runs), np.ones(runs), np.zeros((runs, 3)), np.zeros((runs, 3)))
 
-    def begun(self, run: int, time: float, lasts: float, off: tuple[Array, Array]) -> Fading:
+    def begun(self, run: int, time: float, duration: float, off: tuple[Array, Array]) -> Fading:
         """Return the same with one run that begins its return now.
 
         off : position and velocity, (3,) each
         """
         start, seconds, place, rate = (part.copy() for part in (self.start, self.lasts, self.off, self.rate))
-        start[run], seconds[run], place[run], rate[run] = time, lasts, *off
+        start[run], seconds[run], place[run], rate[run] = time, duration, *off
         return Fading(self.film, start, seconds, place, rate)
 
     def setpoint(self, time: float) -> VehicleSetpoint:
@@ -63,8 +63,8 @@ class Fading:
 
     def places(self, run: int, times: Array) -> Array:
         """Return the positions of a run at times (M,), shape (M, 3), metres."""
-        since, slows = times - self.start[run], self._slows[run]
-        x, y = (np.clip(since / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts[run], slows))
+        elapsed, slows = times - self.start[run], self._slows[run]
+        x, y = (np.clip(elapsed / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts[run], slows))
         beside = PLACE(x) * self.off[run] + RATE(y) * slows * self.rate[run]
         return np.asarray(self.film.places(times) + beside)
 

@@ -37,8 +37,8 @@ class FleetCourse:
     @property
     def nearest(self) -> ClosestPair | None:
         """The nearest pair, in the air or on pads; None for a fleet of one."""
-        found = [near for near in (self.flown.near, self.flown.beside) if near is not None]
-        return min(found, key=lambda near: near.distance, default=None)
+        nearest = [near for near in (self.flown.near, self.flown.beside) if near is not None]
+        return min(nearest, key=lambda near: near.distance, default=None)
 
     @property
     def clearance(self) -> float:
@@ -146,10 +146,10 @@ def _meetings(
     mission: MissionIR, fleets: Sequence[Fleet], cameras: Sequence[DroneRuns]
 ) -> Iterator[_Meeting]:
     for (i, one), (j, other) in combinations(enumerate(fleets), 2):
-        asked = max(one.apart.horizontal, other.apart.horizontal)
-        search, radii = Across(stricter(one.apart, other.apart), asked), one.radius + other.radius
-        yield _Meeting(i, j, search, (one.name, other.name), asked, radii)
+        least = max(one.apart.horizontal, other.apart.horizontal)
+        search, radii = Across(stricter(one.apart, other.apart), least), one.radius + other.radius
+        yield _Meeting(i, j, search, (one.name, other.name), least, radii)
     for (i, one), (j, camera) in product(enumerate(fleets), enumerate(cameras, len(fleets))):
-        drone, asked = mission.drone(camera.drone), kept_from_cameras(mission.rules.separation, one)
-        search = Across(Apart("ellipsoid", asked, asked, 0.0), asked)
-        yield _Meeting(i, j, search, (one.name, drone.name), asked, one.radius + drone.radius)
+        drone, least = mission.drone(camera.drone), kept_from_cameras(mission.rules.separation, one)
+        search = Across(Apart("ellipsoid", least, least, 0.0), least)
+        yield _Meeting(i, j, search, (one.name, drone.name), least, one.radius + drone.radius)

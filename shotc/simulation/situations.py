@@ -100,21 +100,23 @@ class Chased:
         beside = there - np.array(mission.target(self.target).at(goal))
         level = film.track.curve(stages[stages <= goal])[:, 2]
         c, s = cos(of.turn), sin(of.turn)
-        wanted = target[-1] + np.array(
+        goal_place = target[-1] + np.array(
             [c * beside[0] - s * beside[1], s * beside[0] + c * beside[1], beside[2]]
         )
         # The floor is only a penalty in the replan, so a target estimated to be in the ground must not lead
         # the drone there.
-        wanted[2] = max(there[2] + of.rise, mission.lowest((wanted[0], wanted[1], 0.0), film.drone.radius))
+        goal_place[2] = max(
+            there[2] + of.rise, mission.lowest((goal_place[0], goal_place[1], 0.0), film.drone.radius)
+        )
         return ChaseSituation(
             time=float(stages[0]),
             place=drone[0],
             velocity=drone[1],
             target=target,
             target_velocity=moves,
-            wanted=wanted,
+            wanted=goal_place,
             wanted_velocity=moves[-1],
-            height=float(wanted[2]) if np.ptp(level) <= LEVEL_M else None,
+            height=float(goal_place[2]) if np.ptp(level) <= LEVEL_M else None,
             traffic=of.traffic,
             walls=of.walls,
         )
@@ -151,8 +153,8 @@ class ComposedShot:
         of: ReplanInstant,
     ) -> FramingSituation:
         """Return the input of a replan in one run; arguments as in ``Chased``."""
-        filmed = {each.target: self._asked(each, stages) for each in self.subjects}
-        wanted = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
+        filmed = {each.target: self._appearances(each, stages) for each in self.subjects}
+        references = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
         return FramingSituation(
             time=float(stages[0]),
@@ -160,7 +162,7 @@ class ComposedShot:
             velocity=drone[1],
             aim=_aim(film, float(stages[0]), of.last),
             subjects=tuple(
-                _filmed(mission, film.drone, target, filmed.get(target.name), (stages, of, wanted))
+                _filmed(mission, film.drone, target, filmed.get(target.name), (stages, of, references))
                 for target in bodies
             ),
             traffic=of.traffic,
@@ -168,7 +170,7 @@ class ComposedShot:
             near=None if self.near is None else _drawn(mission, self.near, stages, of),
         )
 
-    def _asked(self, subject: Subject, stages: Array) -> tuple[Asked, ...]:
+    def _appearances(self, subject: Subject, stages: Array) -> tuple[Asked, ...]:
         """Return the references of a subject's appearance at the stages."""
         return tuple(subject.asked(t - self.phase.start) for t in stages.tolist())
 
@@ -301,10 +303,10 @@ def _filmed(
     mission: MissionIR,
     drone: Drone,
     target: Target,
-    asked: tuple[Asked, ...] | None,
+    appearances: tuple[Asked, ...] | None,
     at: tuple[Array, ReplanInstant, Mapping[str, Array]],
 ) -> FilmedSubject:
-    stages, of, wanted = at
+    stages, of, references = at
     points, _ = predicted(target, stages, of)
     beside = mission.rules.beside_target(drone.radius)
     return FilmedSubject(
@@ -312,20 +314,20 @@ def _filmed(
         centre=points,
         semi_axes=(target.radius + beside, target.radius + beside, target.height / 2 + beside),
         diameter=target.height,
-        wanted=None if asked is None else _appearance(asked, wanted.get(target.name)),
+        wanted=None if appearances is None else _appearance(appearances, references.get(target.name)),
     )
 
 
-def _appearance(asked: tuple[Asked, ...], uv: Array | None) -> Appearance:
+def _appearance(appearances: tuple[Asked, ...], uv: Array | None) -> Appearance:
     """Return the reference of a subject's appearance: place and size now, the view at every stage.
 
     A view with a free angle is not constrained.
     """
     place = None if uv is None or np.isnan(uv).any() else (float(uv[0]), float(uv[1]))
-    ways = [viewpoint.direction(*view) for view in map(_both, asked) if view is not None]
-    return Appearance(place, asked[0].size, np.array(ways) if ways else None)
+    ways = [viewpoint.direction(*view) for view in map(_both, appearances) if view is not None]
+    return Appearance(place, appearances[0].size, np.array(ways) if ways else None)
 
 
-def _both(asked: Asked) -> tuple[float, float] | None:
-    azimuth, elevation = asked.view or (None, None)
+def _both(appearance: Asked) -> tuple[float, float] | None:
+    azimuth, elevation = appearance.view or (None, None)
     return None if azimuth is None or elevation is None else (azimuth, elevation)

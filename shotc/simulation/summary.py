@@ -68,15 +68,15 @@ def summary(done: Rehearsed) -> Summary:
     return Summary(
         f"{total} run{'s' if total > 1 else ''}, {_conditions(done)}",
         tuple(rows for rows in tables if len(rows) > 1),
-        tuple(_asked(done, total)),
+        tuple(_requirement_lines(done, total)),
         tuple(_remarks(done)),
     )
 
 
-def _asked(done: Rehearsed, total: int) -> Iterator[str]:
+def _requirement_lines(done: Rehearsed, total: int) -> Iterator[str]:
     for each in done.verdicts:
-        asked = f"{each.key} {_limit(each)}" if each.written else "touch nothing"
-        yield f"{asked}: {each.held} of {total} runs"
+        requirement = f"{each.key} {_limit(each)}" if each.written else "touch nothing"
+        yield f"{requirement}: {each.held} of {total} runs"
     if done.promise.of < 1.0 or len(done.verdicts) > 1:
         yield f"all of it in {done.needed} of {total} runs: {done.held} keep it"
 

@@ -101,25 +101,27 @@ class Lagging:
 
 
 def steered(
-    vehicle: Vehicle, state: VehicleState, asked: VehicleSetpoint, error: Array | float = 0.0
+    vehicle: Vehicle, state: VehicleState, setpoint: VehicleSetpoint, error: Array | float = 0.0
 ) -> tuple[Array, Array]:
     """Return the acceleration that the controller demands of the rotors, and the integrator's, (R, 3) each.
 
     error : of the drone's position estimate, (R, 3), metres
     """
     gain_p, gain_v, gain_i = (np.array(g) for g in (vehicle.position, vehicle.velocity, vehicle.integral))
-    wanted = within(asked.velocity + gain_p * (asked.position - state.position - error), vehicle.speed)
-    missing = wanted - state.velocity
-    pushed = _bounded(vehicle, asked.acceleration + gain_v * missing + state.held)
+    velocity = within(
+        setpoint.velocity + gain_p * (setpoint.position - state.position - error), vehicle.speed
+    )
+    missing = velocity - state.velocity
+    pushed = _bounded(vehicle, setpoint.acceleration + gain_v * missing + state.held)
     # The integrator has the same bound, so it does not wind up while the wind carries a drone away.
     return pushed, _bounded(vehicle, state.held + STEP_S * gain_i * missing)
 
 
 def moved(
-    vehicle: Vehicle, state: VehicleState, asked: VehicleSetpoint, wind: Array, error: Array | float = 0.0
+    vehicle: Vehicle, state: VehicleState, setpoint: VehicleSetpoint, wind: Array, error: Array | float = 0.0
 ) -> VehicleState:
     """Return the state of the default plant a ``STEP_S`` later; arguments as above."""
-    return Lagging(vehicle).carried(state, *steered(vehicle, state, asked, error), wind)
+    return Lagging(vehicle).carried(state, *steered(vehicle, state, setpoint, error), wind)
 
 
 def within(vectors: Array, most: float) -> Array:

@@ -66,9 +66,9 @@ def verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> tuple[Requiremen
     return tuple(_verdicts(runs, promise))
 
 
-def held(runs: Sequence[Run], found: Sequence[RequirementVerdict]) -> int:
+def held(runs: Sequence[Run], judged: Sequence[RequirementVerdict]) -> int:
     """Return the number of runs that keep all requirements."""
-    return sum(all(_holds(each.key, run, each.limit) for each in found) for run in runs)
+    return sum(all(_holds(each.key, run, each.limit) for each in judged) for run in runs)
 
 
 def enough(runs: Sequence[Run], promise: RehearsalPromise) -> int:
@@ -78,16 +78,16 @@ def enough(runs: Sequence[Run], promise: RehearsalPromise) -> int:
 
 def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[RequirementVerdict]:
     for key, measure in MEASURES.items():
-        asked = getattr(promise, key)
-        if asked is None and key != "clearance":
+        required = getattr(promise, key)
+        if required is None and key != "clearance":
             continue
-        limit = 0.0 if asked is None else asked
+        limit = 0.0 if required is None else required
         values = [(measure.of(run), run.number) for run in runs]
         ordered = sorted(values, reverse=not measure.upper)  # from best to worst
         worst, number = ordered[-1]
         kept = ordered[enough(runs, promise) - 1][0]
         count = sum(_holds(key, run, limit) for run in runs)
-        yield RequirementVerdict(key, limit, measure.upper, count, worst, number, kept, asked is not None)
+        yield RequirementVerdict(key, limit, measure.upper, count, worst, number, kept, required is not None)
 
 
 def _holds(key: Key, run: Run, limit: float) -> bool:

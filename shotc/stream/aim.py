@@ -47,7 +47,7 @@ class LiveAim:
         planned = self._course.aim(tick)
         if not self._feeds:
             return planned
-        offset = self._wanted(tick / RATE_HZ, now)
+        offset = self._offset(tick / RATE_HZ, now)
         before, most = self._off, self._drone.gimbal.rate * PERIOD_S
         self._off = (_towards(before[0], offset[0], most), _towards(before[1], offset[1], most))
         yaw, pitch = self._off
@@ -61,7 +61,7 @@ class LiveAim:
             planned.yaw_rate - rates[0],
         )
 
-    def _wanted(self, t: float, now: float) -> Vec2:
+    def _offset(self, t: float, now: float) -> Vec2:
         """Return the wanted offset from the planned yaw (counter-clockwise) and pitch, rad."""
         name = self._filmed(t)
         feed = self._feeds.get(name) if name is not None else None

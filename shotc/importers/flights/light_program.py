@@ -68,7 +68,7 @@ class _Player:
         if order == END:
             return False
         if order in SETS or order in FADES:
-            color = self._wanted(order, SETS.get(order, FADES.get(order, 0)))
+            color = self._next_color(order, SETS.get(order, FADES.get(order, 0)))
             self._show(color, self._number(), fades=order in FADES)
         elif order == SLEEP:
             self._show(self._color, self._number(), fades=False)
@@ -88,7 +88,7 @@ class _Player:
             self._loops.append((left - 1, begin))
             self._at = begin
 
-    def _wanted(self, order: int, count: int) -> Color:
+    def _next_color(self, order: int, count: int) -> Color:
         if count == 0:
             return (255, 255, 255) if order in WHITES else BLACK
         red = self._byte()

@@ -214,7 +214,7 @@ class Itinerary:
     def _path(self, shot: PlannedShot) -> ClockFailure | None:
         timing = shot.shot.shot.timing
         ready = max(timing.start or 0.0, self.ends.get(timing.after or "", 0.0))
-        transfer = self._way(shot.leg.pose, shot, timing.start, ready)
+        transfer = self._transfer(shot.leg.pose, shot, timing.start, ready)
         if not isinstance(transfer, Transfer):
             return transfer
         if transfer.met is not None:
@@ -231,7 +231,7 @@ class Itinerary:
         self.last = None
         return None
 
-    def _way(
+    def _transfer(
         self, goal: Pose, shot: PlannedShot | PlacedShot, deadline: float | None, ready: float = 0.0
     ) -> Transfer | Failure:
         """Return the unfilmed legs from the current pose, or from the pad, to a shot's first pose.
@@ -263,7 +263,10 @@ class Itinerary:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
             start = inside(
-                self.mission, self.flight.space, placed, max(ready, self.clock + before, self._since(placed))
+                self.mission,
+                self.flight.space,
+                placed,
+                max(ready, self.clock + before, self._track_start(placed)),
             )
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
@@ -366,7 +369,7 @@ class Itinerary:
         if isinstance(made, NoMotion):
             return made
         curve_start = float(made.leg.curve.start)
-        transfer = self._way(made.leg.pose, placed, curve_start)
+        transfer = self._transfer(made.leg.pose, placed, curve_start)
         if not isinstance(transfer, Transfer):
             return transfer
         return Reached(made, transfer, transfer.end - curve_start, requirements[0].aside)
@@ -390,7 +393,7 @@ class Itinerary:
 
         return about
 
-    def _since(self, placed: PlacedShot) -> float:
+    def _track_start(self, placed: PlacedShot) -> float:
         tracks = (self.mission.target(name).track for name in carriers(placed.shot))
         return max((track.since for track in tracks if track is not None), default=0.0)
 

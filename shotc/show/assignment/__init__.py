@@ -55,15 +55,15 @@ class AssignGoals:
         changed = beside(mission, directors)
         made = [director.trajectory(images) for director in directors]
         fleets = tuple(flight for flight, _ in made)
-        diagnostics += [d for _, told in made for d in told]
+        diagnostics += [d for _, faults in made for d in faults]
         diagnostics += [d for flight in fleets for d in flashing(mission, flight)]
         stats = tuple(
             entry
             for director, flight in zip(directors, fleets, strict=True)
             for entry in _stats(director, flight)
         )
-        wanted = tuple(fleet.coef for fleet in fleets)
-        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats, *changed)), tuple(diagnostics))
+        goals_ctrl = tuple(fleet.coef for fleet in fleets)
+        return Outcome(ShowIR(ir, fleets, goals_ctrl, (*ir.stats, *stats, *changed)), tuple(diagnostics))
 
 
 def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:

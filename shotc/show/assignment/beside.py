@@ -95,10 +95,10 @@ class _Sky:
     def cleared(self) -> list[tuple[str, float | str]]:
         """Resolve one meeting after another in the order of time, as long as there is a change."""
         for _ in range(MOST_CHANGES):
-            found = [m for m in self.met.values() if m is not None]
-            if not found:
+            meetings = [m for m in self.met.values() if m is not None]
+            if not meetings:
                 break
-            change = self._change(min(found, key=lambda meeting: meeting.near.time))
+            change = self._change(min(meetings, key=lambda meeting: meeting.near.time))
             if change is None:
                 break
             self._take(change)
@@ -162,22 +162,22 @@ class _Sky:
         block = block_at(flight, time)
         if block is None:
             return
-        until = float(flight.breaks[block.way.last])
+        end = float(flight.breaks[block.way.last])
         slack = 0.0 if time >= home else self._slack(flight, block) - LEAST_S
         for seconds in (s for s in SHIFTS_S if s <= slack):
-            yield FlightChange(of, earlier(flight, block, seconds), until, ("sets out earlier", seconds))
+            yield FlightChange(of, earlier(flight, block, seconds), end, ("sets out earlier", seconds))
         yield from self._around(of, other, block, slack)
 
     def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[FlightChange]:
         """Yield a path around the places that the other fleet occupies, if there is time for it."""
-        flight, way = self.flights[of], block.way
-        low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
+        flight, stretch = self.flights[of], block.way
+        low, high = float(flight.breaks[stretch.first]), float(flight.breaks[stretch.last])
         kind = next(phase for phase in flight.phases if phase.start - LEAST_S < high <= phase.end + LEAST_S)
         if kind.name == "land" or any(low < s.start < high - LEAST_S for s in flight.shown):
             return  # vertical, or an animation
         home = kind.name == "return"
         picture, pace = (None, 1.0) if home else self._picture(flight, high)
-        ends = ends_of(flight, way)
+        ends = ends_of(flight, stretch)
         span = (low, high) if home else (low - max(slack, 0.0), high)
         apart, track = self._apart(of, other), self.flights[other]
         filled = tuple(_filled(track, span, apart, ends))
@@ -187,8 +187,8 @@ class _Sky:
         longer = move.duration - (high - low)
         if home or longer > 0.0:
             changed = on_arcs(flight, block, move)
-            until = float(changed.breaks[-1]) if home else high
-            yield FlightChange(of, changed, until, ("led round", max(longer, 0.0)))
+            end = float(changed.breaks[-1]) if home else high
+            yield FlightChange(of, changed, end, ("led round", max(longer, 0.0)))
 
     def _picture(self, flight: FleetTrajectory, time: float) -> tuple[Picture, float]:
         """Return the picture that stands from a time on, and the pace of its display."""

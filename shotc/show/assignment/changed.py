@@ -95,17 +95,19 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
     time.
     """
     flight, block = _ready(flight, block)
-    way = block.way
-    low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
-    here, there = flight.coef[:, way.first], flight.coef[:, way.last]
+    stretch = block.way
+    low, high = float(flight.breaks[stretch.first]), float(flight.breaks[stretch.last])
+    here, there = flight.coef[:, stretch.first], flight.coef[:, stretch.last]
     between = [np.round(points, CONTROL_DECIMALS) for points in move.between(here, there)]
     points = np.stack(between, axis=1)
-    coef = np.concatenate([flight.coef[:, : way.first + DEGREE], points, flight.coef[:, way.last :]], axis=1)
+    coef = np.concatenate(
+        [flight.coef[:, : stretch.first + DEGREE], points, flight.coef[:, stretch.last :]], axis=1
+    )
     longer = move.duration - (high - low)
     home = low >= homeward(flight) - NEAR_S
     start = low if home else low - longer
     own = start + np.arange(move.pieces + 1) * move.piece
-    before, after = flight.breaks[: way.first].copy(), flight.breaks[way.last + 1 :]
+    before, after = flight.breaks[: stretch.first].copy(), flight.breaks[stretch.last + 1 :]
     if home:
         after = after + longer
         flown = replace(flight, breaks=np.concatenate([before, own, after]), coef=coef)
@@ -113,20 +115,20 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
     before[block.first :] -= longer
     own[-1] = high
     flown = replace(flight, breaks=np.round(np.concatenate([before, own, after]), 9), coef=coef)
-    since = float(flight.breaks[block.first])
-    return _timed(flown, lambda t: t - longer if since - NEAR_S <= t < high - NEAR_S else t)
+    departure = float(flight.breaks[block.first])
+    return _timed(flown, lambda t: t - longer if departure - NEAR_S <= t < high - NEAR_S else t)
 
 
 def _ready(flight: FleetTrajectory, block: FlightBlock) -> tuple[FleetTrajectory, FlightBlock]:
     """Return a trajectory whose hold before a block is one piece, and the block in it."""
     rest = set(at_rest(flight.coef).tolist())
     first = block.first
-    since = first
-    while since - 1 in rest:
-        since -= 1
-    fewer = max(first - since - 1, 0)
-    breaks = np.concatenate([flight.breaks[: since + 1], flight.breaks[since + 1 + fewer :]])
-    coef = np.delete(flight.coef, np.s_[since + 1 : since + 1 + fewer], axis=1)
+    rest_start = first
+    while rest_start - 1 in rest:
+        rest_start -= 1
+    fewer = max(first - rest_start - 1, 0)
+    breaks = np.concatenate([flight.breaks[: rest_start + 1], flight.breaks[rest_start + 1 + fewer :]])
+    coef = np.delete(flight.coef, np.s_[rest_start + 1 : rest_start + 1 + fewer], axis=1)
     stretches = tuple(Window(w.first - fewer, w.last - fewer) for w in block.stretches)
     return replace(flight, breaks=breaks, coef=coef), FlightBlock(stretches)
 
@@ -143,6 +145,6 @@ def _timed(flight: FleetTrajectory, at: Callable[[float], float]) -> FleetTrajec
     return replace(flight, phases=phases, shown=shown)
 
 
-def ends_of(flight: FleetTrajectory, way: Window) -> tuple[Array, Array]:
+def ends_of(flight: FleetTrajectory, stretch: Window) -> tuple[Array, Array]:
     """Return the positions of all drones before and after a stretch, shape (n, 3) each."""
-    return flight.coef[:, way.first], flight.coef[:, way.last]
+    return flight.coef[:, stretch.first], flight.coef[:, stretch.last]

@@ -86,8 +86,8 @@ class Director:
         standing = list(map(StandingFrame, self.cast.scenes, score.shown))
         dark = self._dark()
         rows = rows_of(dark, standing, self._followed())
-        lit, told = with_effects(rows, self.mission, standing, dark, images)
-        return score.trajectory(self.fleet.name, lit), told
+        lit, faults_of_lights = with_effects(rows, self.mission, standing, dark, images)
+        return score.trajectory(self.fleet.name, lit), faults_of_lights
 
     def _followed(self) -> list[tuple[Recorded, float]]:
         """Return the recorded flights with the time at which each begins."""
@@ -202,6 +202,6 @@ class Director:
         full = self.mover.move(here, there, 1.0, picture)
         if picture.transition >= full.duration - TINY_S:
             return max(picture.transition, full.duration)
-        way = float(np.linalg.norm((there - here)[full.drone]))
-        self._found.append(faults.too_fast(self.mission, self.fleet, picture, full, way))
+        distance = float(np.linalg.norm((there - here)[full.drone]))
+        self._found.append(faults.too_fast(self.mission, self.fleet, picture, full, distance))
         return full.duration

@@ -41,10 +41,12 @@ class TriedWave(NamedTuple):
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
 
 
-def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, way: float) -> Diagnostic:
+def too_fast(
+    mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, distance: float
+) -> Diagnostic:
     """Return D080: a requested transition is shorter than the limits allow.
 
-    way : distance of the limiting drone, metres
+    distance : of the limiting drone, metres
     """
     origins, name = mission.origins, drone_names(fleet)[least.drone]
     eased = "" if picture.easing == "ease-in-out" else f" with `easing: {picture.easing}`"
@@ -61,7 +63,7 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
             origins.value((*fleet.path, "limits", least.limit), "what binds"),
         ),
         (
-            f"`{name}` has {way:.1f} m to go, and its {least.limit} is at most {limit:.2f} "
+            f"`{name}` has {distance:.1f} m to go, and its {least.limit} is at most {limit:.2f} "
             f"{UNITS[least.limit]}",
         ),
         f"give it `{transition_key(mission, picture)}: {shortest}`, leave it out to have it as fast as the "
@@ -71,27 +73,27 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
 
 def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnostic:
     """Return D081: the fleet cannot reach its first picture by the display's start."""
-    asked, possible = display.start or 0.0, at_least(earliest)
+    written, possible = display.start or 0.0, at_least(earliest)
     if display.pictures[0].at is not None:
         help_ = moments(mission, earliest)
         if mission.music is not None:
-            later = mission.music.start + earliest - asked
+            later = mission.music.start + earliest - written
             help_ += f", or have the music start at {at_least(later)} s"
     else:
         help_ = f"give it `start: {possible} s` or later"
     return Diagnostic(
         "D081",
-        f"display `{display.id}` starts at {plain(asked)} s, but {possible} s is the earliest possible",
+        f"display `{display.id}` starts at {plain(written)} s, but {possible} s is the earliest possible",
         (mission.origins.value(display.start_path),),
         ("before it come take-off and the way to the first picture, or the display before it",),
         help_,
     )
 
 
-def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) -> Diagnostic:
+def too_late(mission: MissionIR, picture: Picture, earliest: float, duration: float) -> Diagnostic:
     """Return D124: a picture cannot stand at its fixed time.
 
-    way : seconds of the move to it
+    duration : of the move to it, seconds
     """
     return Diagnostic(
         "D124",
@@ -99,8 +101,8 @@ def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) 
         "earliest possible",
         (mission.origins.value((*picture.path, "at")),),
         (
-            f"the picture before it stands until {plain(earliest - way)} s, and the way takes "
-            f"{at_least(way)} s",
+            f"the picture before it stands until {plain(earliest - duration)} s, and the way takes "
+            f"{at_least(duration)} s",
         ),
         moments(mission, earliest),
     )
@@ -280,7 +282,7 @@ def wave_without_extent(mission: MissionIR, picture: Picture, wave: Wave, able: 
         f"the wave goes nowhere: along `{wave.along}` all places {places} are alike",
         (mission.origins.value(along if along in mission.origins.values else path),),
         (),
-        f"write {', or '.join(f'`along: {way}`' for way in able)}" if able else "leave `wave` out",
+        f"write {', or '.join(f'`along: {axis}`' for axis in able)}" if able else "leave `wave` out",
     )
 
 

@@ -87,7 +87,7 @@ def most_flashes(levels: Array) -> Flashes:
 
 def _changes(levels: Array) -> list[int]:
     """Return the ticks at which counted changes are complete; successive ones have opposite signs."""
-    found: list[int] = []
+    changes: list[int] = []
     low = high = float(levels[0])
     rising: bool | None = None
     for k, level in enumerate(levels.tolist()):
@@ -95,8 +95,8 @@ def _changes(levels: Array) -> list[int]:
         high = high if rising is False else max(high, level)
         if not rising and level >= low + CHANGE and low < BRIGHT:
             rising, high = True, level
-            found.append(k)
+            changes.append(k)
         elif rising is not False and level <= high - CHANGE and level < BRIGHT:
             rising, low = False, level
-            found.append(k)
-    return found
+            changes.append(k)
+    return changes

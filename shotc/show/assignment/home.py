@@ -40,16 +40,16 @@ def _come_to_any(score: FlightScore, mover: Mover) -> tuple[float, ...]:
 
 
 def _come_to_own(score: FlightScore, mover: Mover) -> tuple[float, ...]:
-    fleet, way = mover.fleet, way_to_own(mover.fleet, score.places)
-    mover.faults += high_levels(mover.mission, fleet, way.heights)
-    _gather(score, mover, way.columns)
-    if (score.places != way.raised).any():
-        score.move(way.raised, fastest(way.raised - score.places, fleet.limits, 1.0))
-    if (score.places != way.down.above).any():
-        score.move(way.down.above, mover.straight((score.places, way.down.above), 1.0, None))
+    fleet, own_way = mover.fleet, way_to_own(mover.fleet, score.places)
+    mover.faults += high_levels(mover.mission, fleet, own_way.heights)
+    _gather(score, mover, own_way.columns)
+    if (score.places != own_way.raised).any():
+        score.move(own_way.raised, fastest(own_way.raised - score.places, fleet.limits, 1.0))
+    if (score.places != own_way.down.above).any():
+        score.move(own_way.down.above, mover.straight((score.places, own_way.down.above), 1.0, None))
     score.phase("return")
-    _sink(score, fleet, way.down, (way.heights, way.step))
-    return way.heights
+    _sink(score, fleet, own_way.down, (own_way.heights, own_way.step))
+    return own_way.heights
 
 
 def _gather(score: FlightScore, mover: Mover, places: Array) -> None:

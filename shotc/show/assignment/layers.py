@@ -130,28 +130,28 @@ def _gradient(ramp: Ramp, stage: EffectContext, times: Times) -> Gradient:
     return Gradient(ramp.colors, ramp.at, along, rate, times.start, ramp.period is not None)
 
 
-def along_of(way: Way, center: Vec3 | None, stage: EffectContext) -> Along:
+def along_of(axis_direction: Way, center: Vec3 | None, stage: EffectContext) -> Along:
     """Return the coordinate of a direction through the places of a stage.
 
     center : origin of `out` and `in`
     """
-    if way == "index":
+    if axis_direction == "index":
         return Order(stage.drones)
     low, high = stage.places.min(axis=0), stage.places.max(axis=0)
-    if way in ("out", "in"):
+    if axis_direction in ("out", "in"):
         middle = (low + high) / 2.0 if center is None else np.array(center)
         reach = float(np.linalg.norm(stage.places - middle, axis=1).max())
-        return Radius(_vec(middle), max(reach, LEAST_M), way == "in")
-    direction = COMPASS.get(way) or _seen(way, stage)
+        return Radius(_vec(middle), max(reach, LEAST_M), axis_direction == "in")
+    direction = COMPASS.get(axis_direction) or _seen(axis_direction, stage)
     at = stage.places @ np.array(direction)
     return Axis(direction, float(at.min()), max(float(at.max()), float(at.min()) + LEAST_M))
 
 
-def _seen(way: Way, stage: EffectContext) -> Vec3:
+def _seen(direction: Way, stage: EffectContext) -> Vec3:
     """Return the horizontal direction of a word that is relative to the audience."""
     right, _, _ = _axes(stage)
     level = np.array([-right[1], right[0], 0.0])
-    return _vec({"right": right, "left": -right, "away": level, "near": -level}[way])
+    return _vec({"right": right, "left": -right, "away": level, "near": -level}[direction])
 
 
 def _eye(stage: EffectContext) -> Array:

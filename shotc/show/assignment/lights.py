@@ -100,23 +100,23 @@ def with_effects(
     if not any(display.every_effect for display in displays):
         return plain, []
     pictures = _pictures(displays, standing, dark)
-    told: list[Diagnostic] = []
+    faults_of_lights: list[Diagnostic] = []
     looks: list[Look] = []
     number: dict[tuple[str, int, int], int] = {}
     over: list[Layer] = []
     for seed, picture in enumerate(pictures):
-        layers, later = _of_picture(mission, picture, images, (seed, told))
+        layers, later = _of_picture(mission, picture, images, (seed, faults_of_lights))
         over += later
         for one in picture.frames:
             number[one.shown.display, one.shown.picture, one.shown.index] = len(looks)
             looks.append(Look(layers, one.scene.spare))
     for display in displays:
-        over += _of_display(mission, display, pictures, images, told)
+        over += _of_display(mission, display, pictures, images, faults_of_lights)
     kept = (row.of for row in rows.values())
     of = tuple(
         -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in kept
     )
-    return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), told
+    return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), faults_of_lights
 
 
 def _pictures(
@@ -126,28 +126,28 @@ def _pictures(
         tuple(group) for _, group in groupby(standing, key=lambda one: (one.shown.display, one.shown.picture))
     ]
     known = {display.id: display for display in displays}
-    found = []
+    stood = []
     for k, frames in enumerate(groups):
         before = groups[k - 1][-1].shown.end if k else dark[0]
         after = groups[k + 1][0].shown.start if k + 1 < len(groups) else dark[1]
         first, last = frames[0].shown, frames[-1].shown
         times = Times(before, first.start, last.end, after)
-        found.append(_Stood(known[first.display], first.picture, frames, times))
-    return found
+        stood.append(_Stood(known[first.display], first.picture, frames, times))
+    return stood
 
 
 def _of_picture(
     mission: MissionIR, picture: _Stood, images: Images, known: tuple[int, list[Diagnostic]]
 ) -> tuple[tuple[Layer, ...], list[Layer]]:
     """Return the effects that fade with a picture's colours, and those on top of all."""
-    seed, told = known
+    seed, faults_of_lights = known
     stage = _stage(picture.display, [picture], images)
     with_it: list[Layer] = []
     over: list[Layer] = []
     for k, effect in enumerate(picture.display.pictures[picture.number].effects):
         first, last = counts(effect, picture.times)
         if last <= first:
-            told.append(faults.never_seen(mission, effect, _why(effect)))
+            faults_of_lights.append(faults.never_seen(mission, effect, _why(effect)))
             continue
         layer = layer_of(effect, stage, picture.times, 100 * seed + k)
         (with_it if effect.over == "both" else over).append(layer)
@@ -163,25 +163,25 @@ def _of_display(
     display: Display,
     pictures: Sequence[_Stood],
     images: Images,
-    told: list[Diagnostic],
+    faults_of_lights: list[Diagnostic],
 ) -> Iterator[Layer]:
     mine = [picture for picture in pictures if picture.display is display]
     first, last = mine[0].times, mine[-1].times
     number = mission.displays.index(display)
     for k, effect in enumerate(display.effects):
-        since = first.away if effect.since is None else _moment(effect.since, mine, until=False)
-        until = last.gone if effect.until is None else _moment(effect.until, mine, until=True)
-        until = min(until, last.gone)
-        if until <= since:
-            lasts = f"its last picture is gone {last.gone - first.start:.1f} s after the first one stands"
-            told.append(faults.never_seen(mission, effect, lasts))
+        start = first.away if effect.since is None else _moment(effect.since, mine, is_end=False)
+        end = last.gone if effect.until is None else _moment(effect.until, mine, is_end=True)
+        end = min(end, last.gone)
+        if end <= start:
+            reason = f"its last picture is gone {last.gone - first.start:.1f} s after the first one stands"
+            faults_of_lights.append(faults.never_seen(mission, effect, reason))
             continue
-        under = [p for p in mine if p.times.start < until and p.times.end > since] or mine
-        times = Times(since, since, until, until if effect.until is None else last.gone)
+        under = [p for p in mine if p.times.start < end and p.times.end > start] or mine
+        times = Times(start, start, end, end if effect.until is None else last.gone)
         yield layer_of(effect, _stage(display, under, images), times, 10_000 * (number + 1) + k)
 
 
-def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, until: bool) -> float:
+def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, is_end: bool) -> float:
     """Return a moment of a display in seconds of mission time."""
     if mark.time is not None:
         return mark.time
@@ -189,7 +189,7 @@ def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, until: bool) -> fl
         assert mark.seconds is not None
         return pictures[0].times.start + mark.seconds
     times = next(p.times for p in pictures if p.number == mark.picture)
-    return times.end if until else times.start
+    return times.end if is_end else times.start
 
 
 def _stage(display: Display, pictures: Sequence[_Stood], images: Images) -> EffectContext:

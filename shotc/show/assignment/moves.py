@@ -39,11 +39,11 @@ class Mover:
         self.mission, self.fleet = mission, fleet
         self.faults: list[Diagnostic] = []
         self._scale = np.array([1.0, 1.0, stretch(fleet.apart)])
-        room = room_of(mission, fleet)
+        surroundings = room_of(mission, fleet)
         high = mission.rules.max_height
         # Over terrain the greatest height is one of the surfaces to keep clear of.
         high = inf if high is None or not isfinite(high) or mission.terrain is not None else high
-        self.sky = MoveSurroundings(room, Heights(room.lowest, high))
+        self.sky = MoveSurroundings(surroundings, Heights(surroundings.lowest, high))
 
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move.
@@ -51,14 +51,14 @@ class Mover:
         picture : its goal; None for the return
         """
         path = "auto" if picture is None else picture.transition_path
-        ends, asked = (here, there), self._asked(pace, picture)
+        ends, task = (here, there), self._task(pace, picture)
         free = self._free(ends)
         if path == "straight" or (path == "auto" and free is None):
             return self.straight(ends, pace, picture)
         move, lack = self._arcs(ends, free, pace, picture, self.sky.room)
         if lack.metres <= ROUNDING_M:
             return move
-        lifted = over(ends, asked, Course(move.pivot, Gaps(1.0, 1.0) if free is None else free))
+        lifted = over(ends, task, Course(move.pivot, Gaps(1.0, 1.0) if free is None else free))
         if lifted is not None and lifted.lack.metres <= ROUNDING_M:
             return lifted.move
         if lifted is not None:
@@ -71,12 +71,12 @@ class Mover:
 
         If there is no room to rise, the fleet moves on arcs past them, unless straight paths are requested.
         """
-        asked = self._asked(pace, picture)
-        move = fastest(ends[1] - ends[0], self.fleet.limits, pace, asked.easing)
+        task = self._task(pace, picture)
+        move = fastest(ends[1] - ends[0], self.fleet.limits, pace, task.easing)
         lack = self.sky.lack(ends, move)
         if lack.metres <= ROUNDING_M:
             return move
-        lifted = over(ends, asked, Course(np.zeros(3)))
+        lifted = over(ends, task, Course(np.zeros(3)))
         if lifted is not None and lifted.lack.metres <= ROUNDING_M:
             return lifted.move
         if picture is None or picture.transition_path == "auto":
@@ -94,7 +94,7 @@ class Mover:
         if not self.faults:
             self.faults.append(fault)
 
-    def _asked(self, pace: float, picture: Picture | None) -> MoveTask:
+    def _task(self, pace: float, picture: Picture | None) -> MoveTask:
         easing = "ease-in-out" if picture is None else picture.easing
         return MoveTask(self.sky, self.fleet.limits, pace, easing)
 
@@ -107,12 +107,17 @@ class Mover:
         """
         if picture is not None and picture.transition_path == "straight":
             return None
-        room = replace(self.sky.room, obstacles=(*self.sky.room.obstacles, *beside))
-        move, lack = self._arcs(ends, self._free(ends), pace, picture, room)
+        surroundings = replace(self.sky.room, obstacles=(*self.sky.room.obstacles, *beside))
+        move, lack = self._arcs(ends, self._free(ends), pace, picture, surroundings)
         return move if lack.metres <= ROUNDING_M else None
 
     def _arcs(
-        self, ends: Ends, free: Free | None, pace: float, picture: Picture | None, room: DisplaySurroundings
+        self,
+        ends: Ends,
+        free: Free | None,
+        pace: float,
+        picture: Picture | None,
+        surroundings: DisplaySurroundings,
     ) -> tuple[ArcMove, RoomLack]:
         """Return the fastest clear arcs, or those with the least lack, and the lack."""
         easing = "ease-in-out" if picture is None else picture.easing
@@ -123,7 +128,7 @@ class Mover:
         def about(pivot: Array) -> ArcMove:
             return fastest_arc(ends, pivot, kept, self.fleet.limits, pace, easing)
 
-        return led(ends, self.sky.heights, room, about)
+        return led(ends, self.sky.heights, surroundings, about)
 
     def _free(self, ends: Ends) -> Free | None:
         """Return the free region of the two scalars of a common move; None if straight paths keep the

@@ -64,7 +64,7 @@ class MoveTask:
     easing: Easing
 
 
-def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
+def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
     """Return the fastest move found that rises over the obstacles, or that with the least violation.
 
     The result is None if rising does not help.
@@ -72,17 +72,17 @@ def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
     course : its path, as seen from above
     """
     best: LiftedCandidate | None = None
-    drive = asked.limits, asked.pace, asked.easing
+    drive = task.limits, task.pace, task.easing
     for every in (False, True):
-        need = partial(_need, ends, course.pivot, asked.sky.room, every=every)
+        need = partial(_need, ends, course.pivot, task.sky.room, every=every)
         paths, higher = rising_paths(ends, course, need), 0.0
         for _ in range(ROUNDS):
-            found = lifted(ends, course, [path.higher(higher) for path in paths], drive)
-            if found is None:
+            shape = lifted(ends, course, [path.higher(higher) for path in paths], drive)
+            if shape is None:
                 break
-            lack = asked.sky.lack(ends, found)
+            lack = task.sky.lack(ends, shape)
             if best is None or lack.metres < best.lack.metres:
-                best = LiftedCandidate(found, lack)
+                best = LiftedCandidate(shape, lack)
             if lack.metres <= ROUNDING_M:
                 return best
             if lack.of is None or lack.metres >= OUTSIDE_M:  # a greater height does not help
@@ -91,7 +91,9 @@ def over(ends: Ends, asked: MoveTask, course: Course) -> LiftedCandidate | None:
     return best
 
 
-def _need(ends: Ends, pivot: Array, room: DisplaySurroundings, places: Array, *, every: bool) -> Array:
+def _need(
+    ends: Ends, pivot: Array, surroundings: DisplaySurroundings, places: Array, *, every: bool
+) -> Array:
     """Return the required rise of a fleet with (a, b) at places (T, 2), m, shape (T,).
 
     Each value includes those of its neighbours, because steep obstacles such as walls may start between two
@@ -102,6 +104,6 @@ def _need(ends: Ends, pivot: Array, room: DisplaySurroundings, places: Array, *,
     away, there = ends[0] - pivot, ends[1] - pivot
     # The order is drone by drone, because consecutive places are looked up together.
     ways = pivot + places[:, :1] * away[:, None] + places[:, 1:] * there[:, None]
-    need = room.up(ways.reshape(-1, 3), every=every).reshape(len(away), -1).max(axis=0)
+    need = surroundings.up(ways.reshape(-1, 3), every=every).reshape(len(away), -1).max(axis=0)
     need[1:-1] = np.maximum(need[1:-1], np.maximum(need[:-2], need[2:]))
     return np.asarray(need)

@@ -68,15 +68,15 @@ def levels(starts: Array, ends: Array, least: float) -> NDArray[np.intp]:
     Two drones of one level never come nearer than ``least`` metres. The drone with the longest path chooses
     first, the lowest free level.
     """
-    found = np.full(len(starts), -1, dtype=np.intp)
+    chosen = np.full(len(starts), -1, dtype=np.intp)
     ways = ends - starts
     order = np.argsort(-np.einsum("nd,nd->n", ways, ways), kind="stable")
     for count, i in enumerate(order):
         others = order[:count]
-        taken = np.unique(found[others[_nearest(starts, ways, i, others) < least - ROUNDING_M]])
+        taken = np.unique(chosen[others[_nearest(starts, ways, i, others) < least - ROUNDING_M]])
         free = np.flatnonzero(taken != np.arange(len(taken)))
-        found[i] = free[0] if len(free) else len(taken)
-    return found
+        chosen[i] = free[0] if len(free) else len(taken)
+    return chosen
 
 
 def _nearest(starts: Array, ways: Array, one: int, others: NDArray[np.intp]) -> Array:

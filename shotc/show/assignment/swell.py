@@ -57,7 +57,7 @@ class Heights:
         up = float((ctrl @ [before.max(), after.max()]).max()) + pivot[2]
         return float(max(low - down, up - high, 0.0))
 
-    def pivot(self, ends: Ends, ctrl: Array, wanted: float) -> float:
+    def pivot(self, ends: Ends, ctrl: Array, height: float) -> float:
         """Return the height of c nearest to the wanted one that keeps both heights, or the lower one."""
         low, high = self._of(ends)
         swell = 1.0 - ctrl.sum(axis=1)
@@ -68,7 +68,7 @@ class Heights:
         # The height is moved towards the safe one, because another c has other control points.
         most = most if most == np.inf else SAFE_SHARE * most + (1.0 - SAFE_SHARE) * min(l0, l1)
         least = least if least == -np.inf else SAFE_SHARE * least + (1.0 - SAFE_SHARE) * max(h0, h1)
-        return min(max(wanted, least), most)
+        return min(max(height, least), most)
 
     def _of(self, ends: Ends) -> tuple[float, float]:
         lowest = min(float(e[:, 2].min()) for e in ends)
@@ -77,15 +77,15 @@ class Heights:
 
 
 def led(
-    ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
+    ends: Ends, heights: Heights, surroundings: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> tuple[ArcMove, RoomLack]:
     """Return a move that is clear of everything, or that with the least lack, and the lack.
 
     fastest : returns the fastest move about a point c, shape (3,)
     """
     best: tuple[ArcMove, RoomLack] | None = None
-    for move in _tries(ends, heights, room, fastest):
-        lack = _lack(ends, heights, room, move)
+    for move in _tries(ends, heights, surroundings, fastest):
+        lack = _lack(ends, heights, surroundings, move)
         if lack.metres <= ROUNDING_M:
             return move, lack
         if best is None or lack.metres < best[1].metres:
@@ -95,13 +95,13 @@ def led(
 
 
 def _tries(
-    ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
+    ends: Ends, heights: Heights, surroundings: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> Iterator[ArcMove]:
     """Yield the move about the middle at a suitable height, then moves led aside if that is not clear."""
     middle = 0.25 * sum((e.min(axis=0) + e.max(axis=0) for e in ends), np.zeros(3))
     first = _level(ends, heights, fastest, middle)
     yield first
-    lack = _lack(ends, heights, room, first)
+    lack = _lack(ends, heights, surroundings, first)
     if isinstance(lack.of, Clearance):
         for shift in sorted(_shifts(ends, first, lack), key=lambda shift: float(np.linalg.norm(shift))):
             yield _level(ends, heights, fastest, first.pivot - shift)
@@ -113,14 +113,14 @@ def _shifts(ends: Ends, move: ArcMove, lack: RoomLack) -> Iterator[Array]:
     boxes = _boxes(ends, move)
     swell = np.lib.stride_tricks.sliding_window_view(move.ctrl.sum(axis=1) - 1.0, 4).min(axis=1)
     low, high = bounds(lack.of.solid)
-    room = lack.of.metres + BEYOND_M
+    clearance = lack.of.metres + BEYOND_M
     for axis, side in product(range(3), (1.0, -1.0)):
         if lack.of.inside:
             far = (lack.metres + BEYOND_M) / WIDEST_SHARE
         else:
-            near = (boxes[:, 0] < high + room).all(axis=1) & (boxes[:, 1] > low - room).all(axis=1)
+            near = (boxes[:, 0] < high + clearance).all(axis=1) & (boxes[:, 1] > low - clearance).all(axis=1)
             reach = high[axis] - boxes[near, 0, axis] if side > 0 else boxes[near, 1, axis] - low[axis]
-            far = float(((reach + room) / np.maximum(swell[near], 1e-9)).max(initial=0.0))
+            far = float(((reach + clearance) / np.maximum(swell[near], 1e-9)).max(initial=0.0))
         if far < FARTHEST_M:
             yield side * far * np.eye(3)[axis]
 
@@ -140,17 +140,17 @@ def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pi
     return best
 
 
-def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> RoomLack:
+def _lack(ends: Ends, heights: Heights, surroundings: DisplaySurroundings, move: ArcMove) -> RoomLack:
     worst = RoomLack(heights.lack(ends, move.ctrl, move.pivot), None)
     boxes = _boxes(ends, move)
     flown: FleetPieces | None = None
-    for obstacle in room.obstacles:
+    for obstacle in surroundings.obstacles:
         if not obstacle.inside and (box_gap(boxes, obstacle.solid) >= obstacle.metres).all():
             continue
         flown = flown_of(ends, move) if flown is None else flown
         lack = _beside(obstacle, flown)
         worst = RoomLack(lack, obstacle) if lack > worst.metres else worst
-    for surface in room.surfaces:
+    for surface in surroundings.surfaces:
         flown = flown_of(ends, move) if flown is None else flown
         lack = surface.worst(flown.bag())
         worst = RoomLack(lack, surface) if lack > worst.metres else worst

@@ -90,8 +90,8 @@ class Waves:
             return self._timed(ends, np.zeros(len(ends[0])), display, picture)
         move = self._timed(ends, departs, display, picture)
         if picture.transition is not None and move.duration > picture.transition + TINY_S:
-            way = float(np.linalg.norm((ends[1] - ends[0])[move.drone]))
-            self.faults.append(too_fast(self.mission, self.fleet, picture, move, way))
+            distance = float(np.linalg.norm((ends[1] - ends[0])[move.drone]))
+            self.faults.append(too_fast(self.mission, self.fleet, picture, move, distance))
             return move
         nearest = self._nearest(ends, move)
         if not kept(nearest.proven, self.fleet.apart.across):
@@ -104,10 +104,10 @@ class Waves:
 
     def _timed(self, ends: Ends, departs: Array, display: Display, picture: Picture) -> WaveMove:
         """Return the flown move, which takes longer than requested if that is not feasible."""
-        asked, limits = picture.transition, self.fleet.limits
-        pace = display.pace if asked is None else 1.0
+        duration, limits = picture.transition, self.fleet.limits
+        pace = display.pace if duration is None else 1.0
         move = fastest_wave(ends[1] - ends[0], departs, limits, pace, picture.easing)
-        return move if asked is None or asked < move.duration else move.lasting(asked)
+        return move if duration is None or duration < move.duration else move.lasting(duration)
 
     def _nearest(self, ends: Ends, move: WaveMove) -> Nearest:
         """Return the nearest pair, proved on the flown control points."""

@@ -32,22 +32,20 @@ def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
     ctrl = pieces(fleet.breaks, fleet.coef).reshape(-1, 4, 3)
     low, high = ctrl[..., 2].min(axis=1), ctrl[..., 2].max(axis=1)
     number = int(np.clip((high.max() - low.min()) / THINNEST_M, 1, HEIGHT_LAYERS))
-    room = kept_from_cameras(mission.rules.separation, own)
+    clearance = kept_from_cameras(mission.rules.separation, own)
     for bottom, top in pairwise(np.linspace(low.min(), high.max(), number + 1).tolist()):
         inside = (high >= bottom) & (low <= top)
         if inside.any():
-            points = _about(ctrl[inside].reshape(-1, 3)[:, :2], room)
-            solid = Prism(points, bottom - room, top + room)
+            points = _about(ctrl[inside].reshape(-1, 3)[:, :2], clearance)
+            solid = Prism(points, bottom - clearance, top + clearance)
             yield Zone(f"airspace of {own.name}", "out", solid, own.path)
 
 
-def _about(points: Array, room: float) -> tuple[tuple[float, float], ...]:
-    """Return the corners of a polygon at a distance ``room`` around points (N, 2), counter-clockwise, (SIDES,
-    2).
-    """
+def _about(points: Array, clearance: float) -> tuple[tuple[float, float], ...]:
+    """Return the corners (SIDES, 2) of a polygon at a clearance around points (N, 2), counter-clockwise."""
     turn = 2.0 * np.pi * np.arange(PRISM_SIDES) / PRISM_SIDES
     sides = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    reach = np.array([(points @ side).max() for side in sides]) + room
+    reach = np.array([(points @ side).max() for side in sides]) + clearance
     corners = []
     for k in range(PRISM_SIDES):
         pair = sides[[k, (k + 1) % PRISM_SIDES]]

@@ -81,10 +81,10 @@ def viewpoint_centroids(points: Array, goals: Array, viewpoint: Array, weight: f
     if isinf(weight):
         return Clusters(goals, np.asarray(cKDTree(goals).query(points)[1]), ())
     flat, start = (points - centre) @ across.T, (goals - centre) @ across.T
-    found = _lloyd(flat, start, weight * len(points) / len(goals), 1.0)
+    clusters = _lloyd(flat, start, weight * len(points) / len(goals), 1.0)
     depth = (goals - centre) @ normal
-    back = centre + found.goals @ across + depth[:, None] * normal
-    return Clusters(back, found.labels, found.costs)
+    back = centre + clusters.goals @ across + depth[:, None] * normal
+    return Clusters(back, clusters.labels, clusters.costs)
 
 
 def view_plane(centre: Array, viewpoint: Array) -> tuple[Array, Array]:
@@ -122,7 +122,7 @@ def halved(points: Array, n: int) -> Array:
 
 def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clusters:
     """Lower Eq. 1 iteratively: assign the points, and move every goal to or past the minimum of Eq. 3."""
-    goals, way = start, np.zeros_like(start)
+    goals, momentum = start, np.zeros_like(start)
     near = _Nearest(points, goals)
     costs: list[float] = []
     enough = min(LARGEST, GAIN * len(goals))
@@ -130,14 +130,14 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
         # BLAS threads would cost more than such a short sum.
         cost = float(np.einsum("m,m->", near.own, near.own) + anchor * np.sum((goals - start) ** 2))
         if costs and cost > costs[-1]:
-            goals, way = near.follow(goals, -way), np.zeros_like(way)
+            goals, momentum = near.follow(goals, -momentum), np.zeros_like(momentum)
         else:
             costs.append(cost)
         if len(costs) > PATIENCE and costs[-1 - PATIENCE] - costs[-1] <= enough * costs[-1]:
             break
         moved = _step(near.points, near.labels, goals, (start, anchor))
-        way = boldness * moved + MOMENTUM_SHARE * way
-        goals = near.follow(goals, way)
+        momentum = boldness * moved + MOMENTUM_SHARE * momentum
+        goals = near.follow(goals, momentum)
     return Clusters(goals, near.in_order(), tuple(costs))
 
 
@@ -160,11 +160,11 @@ class _Nearest:
 
     def __init__(self, points: Array, goals: Array) -> None:
         self._look(goals)
-        distances, found = self._tree.query(points, k=2)
+        distances, nearest = self._tree.query(points, k=2)
         # Points are sorted by goal, because searching a tree for neighbouring points is twice as fast.
-        self._order: Labels = np.argsort(found[:, 0], kind="stable")
+        self._order: Labels = np.argsort(nearest[:, 0], kind="stable")
         self.points = points[self._order]
-        self.labels: Labels = found[self._order, 0]
+        self.labels: Labels = nearest[self._order, 0]
         self.own, self._other = np.ascontiguousarray(distances[self._order].T)
 
     def in_order(self) -> Labels:
@@ -173,21 +173,21 @@ class _Nearest:
         labels[self._order] = self.labels
         return labels
 
-    def follow(self, goals: Array, way: Array) -> Array:
+    def follow(self, goals: Array, step: Array) -> Array:
         """Return the goals moved by steps of shape (n, D), and update the assignment."""
-        moves = np.append(np.sqrt(np.einsum("nd,nd->n", way, way)), 0.0)  # the last: missing neighbours
+        moves = np.append(np.sqrt(np.einsum("nd,nd->n", step, step)), 0.0)  # the last: missing neighbours
         near = moves[self._who].max(axis=1)[self.labels]
         far = np.maximum(self._other, self._far[self.labels] - self.own) - moves.max()
         bound = np.minimum(self._other - near, far)
-        goals = goals + way
+        goals = goals + step
         self._look(goals)
         away = self.points - goals[self.labels]
         self.own = np.sqrt(np.einsum("md,md->m", away, away))
         self._other = np.maximum(bound, self._gap[self.labels] - self.own)
         which = np.flatnonzero(self.own > self._other)
-        distances, found = self._tree.query(self.points[which], k=2)
+        distances, nearest = self._tree.query(self.points[which], k=2)
         self.own[which], self._other[which] = distances.T
-        self.labels[which] = found[:, 0]
+        self.labels[which] = nearest[:, 0]
         return goals
 
     def _look(self, goals: Array) -> None:

@@ -55,12 +55,12 @@ def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> floa
     reach = TRUNCATED * gap / 2
     wide = reach * max(1.0, 1 / stretch)  # contains the cells' reach in unscaled space
     if isinstance(source, Sphere):
-        room = stretch * 4 / 3 * pi * (source.radius + wide) ** 3
+        volume = stretch * 4 / 3 * pi * (source.radius + wide) ** 3
     elif isinstance(source, Torus):
-        room = stretch * 2 * pi**2 * source.radius * (source.tube + wide) ** 2  # Pappus
+        volume = stretch * 2 * pi**2 * source.radius * (source.tube + wide) ** 2  # Pappus
     else:
-        room = _round_box(source.size[0], source.size[1], source.size[2] * stretch, reach)
-    return ROGERS_SHARE * room / (pi / 6 * gap**3)
+        volume = _round_box(source.size[0], source.size[1], source.size[2] * stretch, reach)
+    return ROGERS_SHARE * volume / (pi / 6 * gap**3)
 
 
 def _round_box(a: float, b: float, c: float, r: float) -> float:

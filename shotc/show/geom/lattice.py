@@ -100,9 +100,9 @@ def widest(mould: Mould, number: int, least: float) -> Array | None:
     low, high = least, 1.1 * least * (len(best) / number) ** (1.0 / best.shape[1])
     for _ in range(MOST_BISECTIONS):
         middle = 0.5 * (low + high)
-        found = laid(mould, middle)
-        if len(found) >= number:
-            low, best = middle, found
+        goals = laid(mould, middle)
+        if len(goals) >= number:
+            low, best = middle, goals
         else:
             high = middle
     return best[:number]

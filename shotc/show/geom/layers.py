@@ -80,9 +80,9 @@ def widest_layers(mould: Mould, layers: Layers, number: int, least: float) -> tu
     low, high = least, 1.1 * least * sqrt(len(best[0]) / number)
     for _ in range(MOST_BISECTIONS):
         middle = 0.5 * (low + high)
-        found = layered(mould, layers, middle)
-        if len(found[0]) >= number:
-            low, best = middle, found
+        sheets = layered(mould, layers, middle)
+        if len(sheets[0]) >= number:
+            low, best = middle, sheets
         else:
             high = middle
     kept = np.linspace(0, len(best[0]) - 1, number).round().astype(np.intp)

@@ -203,10 +203,10 @@ def _bounds(r0: Array, r1: Array, directions: Array) -> Array:
 
 def _sizes(r0: Array, r1: Array, directions: Array) -> tuple[Array, Array]:
     """Return M of each pair in each direction, and a subgradient of it, shape (P, K) each."""
-    way = r1 - r0
-    x, y, z = (r0[:, k, None] + way[:, k, None] * directions for k in range(3))
+    move = r1 - r0
+    x, y, z = (r0[:, k, None] + move[:, k, None] * directions for k in range(3))
     level, upright = np.hypot(x, y), np.abs(z)
     with np.errstate(divide="ignore", invalid="ignore"):
-        turned = np.where(level > 0.0, (x * way[:, :1] + y * way[:, 1:2]) / level, 0.0)
-    slopes = np.where(level >= upright, turned, np.sign(z) * way[:, 2:])
+        turned = np.where(level > 0.0, (x * move[:, :1] + y * move[:, 1:2]) / level, 0.0)
+    slopes = np.where(level >= upright, turned, np.sign(z) * move[:, 2:])
     return np.maximum(level, upright), slopes

@@ -58,10 +58,10 @@ def _in_the_way(goals: Array, least: float, upright: bool) -> Numbers:
     lack = least - close.distance
     lacks = np.bincount(np.concatenate([close.first, close.second]), np.tile(lack, 2), len(goals))
     most = int(np.ceil(FALL_SHARE * float(lack.sum()) / least))
-    found: list[int] = []
+    blocking: list[int] = []
     for k in np.argsort(-lacks, kind="stable")[: int((lacks > 0).sum())]:
-        if len(found) == most:
+        if len(blocking) == most:
             break
-        if (np.linalg.norm(goals[found] - goals[k], axis=1) >= ASUNDER_RATIO * least).all():
-            found.append(int(k))
-    return np.array(found, dtype=np.intp)
+        if (np.linalg.norm(goals[blocking] - goals[k], axis=1) >= ASUNDER_RATIO * least).all():
+            blocking.append(int(k))
+    return np.array(blocking, dtype=np.intp)

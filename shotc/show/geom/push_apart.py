@@ -81,9 +81,9 @@ def settled(
                 return goals, False
             missing = lacking
         moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        wanted = leash.drawn(goals[moving] + push[moving], moving, done)
+        pushed = leash.drawn(goals[moving] + push[moving], moving, done)
         goals = goals.copy()
-        goals[moving] = hold(goals[moving], wanted)
+        goals[moving] = hold(goals[moving], pushed)
     return goals, not _pushes(goals, least, BEYOND_SHARE, upright)[1]
 
 

@@ -43,11 +43,13 @@ class PlaceGoals:
         showing = {display.fleet for display in ir.mission.displays}
         for fleet in (f for f in ir.mission.fleets if f.name in showing):
             displays = [d for d in ir.mission.displays if d.fleet == fleet.name]
-            found = [_display(ir.mission, fleet, display, ctx) for display in displays]
-            frames = tuple(frame for display in found for picture in display for frame in picture.frames)
-            flights = (one.flight for display in found for one in display if isinstance(one, RecordedPicture))
+            results = [_display(ir.mission, fleet, display, ctx) for display in displays]
+            frames = tuple(frame for display in results for picture in display for frame in picture.frames)
+            flights = (
+                one.flight for display in results for one in display if isinstance(one, RecordedPicture)
+            )
             shows.append(FleetGoals(fleet.name, frames, tuple(one for one in flights if one is not None)))
-            drawn += [picture for display in found for picture in display]
+            drawn += [picture for display in results for picture in display]
         diagnostics = tuple(d for picture in drawn for d in picture.diagnostics)
         stats = tuple(entry for picture in drawn for entry in picture.stats)
         value = None if has_errors(diagnostics) else GoalIR(ir, tuple(shows), stats)

@@ -28,13 +28,13 @@ def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = 
 
     facing : (3,), horizontal viewing direction for a picture without an audience
     """
-    found: list[Array] = []
+    chosen_places: list[Array] = []
     for places in _layers(shown, setting, _away(shown, setting, facing)):
         chosen = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
-        found.append(places[chosen])
+        chosen_places.append(places[chosen])
         spare -= len(chosen)
         if not spare:
-            return np.concatenate(found)
+            return np.concatenate(chosen_places)
     return None
 
 

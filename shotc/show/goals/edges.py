@@ -84,8 +84,8 @@ def _closed(line: Array) -> bool:
 
 def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
     """Return a line cut at its corners; of corners nearer than ``least``, only the sharpest counts."""
-    way = np.diff(line, axis=0)
-    angle = np.arctan2(way[:, 1], way[:, 0])
+    steps = np.diff(line, axis=0)
+    angle = np.arctan2(steps[:, 1], steps[:, 0])
     turn = np.abs(wrapped(np.roll(angle, -1) - angle))  # at the end of each edge
     closed = _closed(line)
     if not closed:

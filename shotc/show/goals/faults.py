@@ -115,16 +115,16 @@ def apart(setting: SpacingTask) -> str:
 
 
 def _ways(fleet: Fleet, ways: PictureRemedies, otherwise: str) -> str:
-    found = []
+    remedies = []
     if ways.number is not None:
-        found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")
+        remedies.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")
     if ways.size is not None:
-        found.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
+        remedies.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
     if ways.share is not None:
         full = (fleet.apart.across, fleet.apart.upright)
         level, upright = (at_most(ways.share * distance - fleet.apart.margin) for distance in full)
-        found.append(f"keep a `separation` of {level} m, {upright} m vertically")
-    return ", or ".join(found) or otherwise
+        remedies.append(f"keep a `separation` of {level} m, {upright} m vertically")
+    return ", or ".join(remedies) or otherwise
 
 
 def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
@@ -142,33 +142,37 @@ def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | 
 
 
 def in_the_way(
-    mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: DisplaySurroundings
+    mission: MissionIR,
+    fleet: Fleet,
+    picture: Picture,
+    frames: Sequence[Array],
+    surroundings: DisplaySurroundings,
 ) -> list[Diagnostic]:
     """Return one fault for each obstacle that contains goals of a picture's frames, and one for
     the ground.
     """
     goals = np.concatenate(frames)
-    if not (room.lack(goals) > ROUNDING_M).any():
+    if not (surroundings.lack(goals) > ROUNDING_M).any():
         return []
     # With an obstacle between its goals, drones would have to avoid it during their moves.
-    shift = least_shift(_whole(goals), room)
-    shift = least_shift(goals, room) if shift is None else shift
+    shift = least_shift(_whole(goals), surroundings)
+    shift = least_shift(goals, surroundings) if shift is None else shift
     help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
     label = place_of(mission, picture, "center")
     diagnostics: list[Diagnostic] = []
     low = float(goals[:, 2].min())
-    if low < room.lowest - ROUNDING_M:
-        count = int((goals[:, 2] < room.lowest - ROUNDING_M).sum()) // len(frames) or 1
+    if low < surroundings.lowest - ROUNDING_M:
+        count = int((goals[:, 2] < surroundings.lowest - ROUNDING_M).sum()) // len(frames) or 1
         note = (
             f"its lowest goal is {low:.2f} m up; `rules.ground_clearance` and the body radius of "
-            f"{fleet.radius:.2f} m ask for {room.lowest:.2f} m"
+            f"{fleet.radius:.2f} m ask for {surroundings.lowest:.2f} m"
         )
         message = f"the picture is too low: {_of(count, fleet)}"
         diagnostics.append(Diagnostic("D058", message, (label,), (note,), help_))
     about = (mission, fleet, label, help_, len(frames))
-    for obstacle in room.obstacles:
+    for obstacle in surroundings.obstacles:
         diagnostics += _at_obstacle(obstacle, goals, about)
-    for surface in room.surfaces:
+    for surface in surroundings.surfaces:
         diagnostics += _at_surface(surface, goals, about)
     return diagnostics
 

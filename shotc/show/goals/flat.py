@@ -99,8 +99,8 @@ class FlatBody:
         corners = np.concatenate([s.edges.reshape(-1, 2) for s in self.shapes])
         low, high = corners[:, :1].min(axis=0), corners[:, :1].max(axis=0)
         columns = columns_below(low, high, max(50, round(COLUMNS_PER_POINT * count)), rng)
-        found = [spans(through_edges(columns, s.edges), s.parity) for s in self.shapes if s.filled]
-        return columns, united(found)
+        intervals = [spans(through_edges(columns, s.edges), s.parity) for s in self.shapes if s.filled]
+        return columns, united(intervals)
 
     def flat(self, places: Array) -> Array:
         """Return the (right, up) coordinates of places (n, 3) in the picture's plane, shape (n, 2)."""
@@ -148,7 +148,7 @@ def _seen(shapes: Sequence[FlatPart], places: Array) -> Numbers:
     rng = np.random.default_rng(0)
     count = max(4, min(FINE_COLUMNS, MOST_POINTS // len(shapes)))
     points = np.concatenate([_along(s.edges, count, rng) for s in shapes])
-    found: Numbers = np.asarray(cKDTree(points).query(places)[1], dtype=np.intp) // count
+    numbers: Numbers = np.asarray(cKDTree(points).query(places)[1], dtype=np.intp) // count
     corners = np.concatenate([places, *(s.edges.reshape(-1, 2) for s in shapes)])
     low, high = corners.min(axis=0), corners.max(axis=0)
     columns = columns_below(low[:1], high[:1], FINE_COLUMNS, rng)
@@ -163,5 +163,5 @@ def _seen(shapes: Sequence[FlatPart], places: Array) -> Numbers:
             some = np.flatnonzero(below >= 0)
             at = below[some]
             held = (inside.column[at] == column[some]) & (places[some, 1] <= inside.high[at])
-            found[some[held]] = k
-    return found
+            numbers[some[held]] = k
+    return numbers

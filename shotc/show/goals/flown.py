@@ -46,15 +46,15 @@ def flown(mission: MissionIR, fleet: Fleet, display: Display) -> RecordedPicture
     clear = mission.rules.over_ground(fleet.radius)
     first, last = mine[0] == display.id, mine[-1] == display.id
     ground = partial(ground_heights, mission)
-    asked = FitRequirements(np.array(fleet.pads), ground, clear, fleet.limits, first, last)
-    found = staged(display.id, tracks, asked)
-    if isinstance(found, Grounded):
-        return RecordedPicture((), None, (faults.grounded(mission, display, tracks, found, clear),))
-    jump = faults.jumps(mission, display, tracks, found)
+    requirements = FitRequirements(np.array(fleet.pads), ground, clear, fleet.limits, first, last)
+    flight = staged(display.id, tracks, requirements)
+    if isinstance(flight, Grounded):
+        return RecordedPicture((), None, (faults.grounded(mission, display, tracks, flight, clear),))
+    jump = faults.jumps(mission, display, tracks, flight)
     if jump is not None:
         return RecordedPicture((), None, (jump,))
-    said = tuple(faults.told(mission, display, tracks, found, asked))
-    return RecordedPicture(_frames(found.flight), found.flight, said, _stats(fleet, found))
+    said = tuple(faults.warnings(mission, display, tracks, flight, requirements))
+    return RecordedPicture(_frames(flight.flight), flight.flight, said, _stats(fleet, flight))
 
 
 def _frames(flight: Recorded) -> tuple[Frame, ...]:
@@ -66,13 +66,13 @@ def _frames(flight: Recorded) -> tuple[Frame, ...]:
     return tuple(Frame(flight.display, 0, k, at[:, k], colors[:, k]) for k in range(len(times)))
 
 
-def _stats(fleet: Fleet, found: Staged) -> tuple[tuple[str, float | str], ...]:
-    name = f"flight {found.flight.display}"
-    start, end = found.part
+def _stats(fleet: Fleet, flight: Staged) -> tuple[tuple[str, float | str], ...]:
+    name = f"flight {flight.flight.display}"
+    start, end = flight.part
     return (
         (f"{name} fleet", fleet.name),
         (f"{name} from s", start),
         (f"{name} to s", end),
-        (f"{name} longer s", found.longer),
-        (f"{name} off m", found.off),
+        (f"{name} longer s", flight.longer),
+        (f"{name} off m", flight.off),
     )

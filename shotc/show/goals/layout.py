@@ -254,12 +254,12 @@ class _Layouts:
         layout = self._one(setting, fill, thinned_out(setting, self._draw(fill), power), lattice=False)
         return layout._replace(placed=(goals,))
 
-    def _one(self, setting: SpacingTask, fill: Fill, found: Array, *, lattice: bool) -> GoalLayout:
+    def _one(self, setting: SpacingTask, fill: Fill, places: Array, *, lattice: bool) -> GoalLayout:
         """Return the layout of a single frame with given goals, and the other drones dark behind them."""
         points = self._draw(fill)(LEAST_POINTS)
-        goals = PlacedGoals(found, found, points)
-        shown = Lit(found, len(found), lattice)
-        few = len(found) < max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number)
+        goals = PlacedGoals(places, places, points)
+        shown = Lit(places, len(places), lattice)
+        few = len(places) < max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number)
         frame = shown if few else _with_dark(shown, setting) or shown
         return GoalLayout(fill, (goals,), (frame,), setting)
 
@@ -282,9 +282,9 @@ class _Layouts:
         """Return the function that draws about a number of points of the first frame."""
 
         def points(count: int) -> Array:
-            found = self.bodies[0].draw(fill, count, np.random.default_rng(list(self.task.seed)))
-            assert found is not None  # it was drawn before
-            return found
+            points = self.bodies[0].draw(fill, count, np.random.default_rng(list(self.task.seed)))
+            assert points is not None  # it was drawn before
+            return points
 
         return points
 
@@ -326,7 +326,7 @@ def _placed(
     task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], fill: Fill
 ) -> list[PlacedGoals] | Diagnostic:
     n = setting.number
-    found: list[PlacedGoals] = []
+    frames: list[PlacedGoals] = []
     for body in bodies:
         flat = isinstance(body, FlatBody)
         count = max(LEAST_FLAT_POINTS if flat else LEAST_POINTS, n * (DENSE if n <= MANY_DRONES else THIN))
@@ -337,9 +337,9 @@ def _placed(
         if len(points) < n:
             return too_few_points(task.mission, task.picture, len(points), n)
         on_surface = fill == "surface" and isinstance(body, SolidBody | MeshBody)
-        goals = placed(setting, points, found[-1] if found else None, on_surface)
-        found.append(on_strokes(body, fill, goals, setting) if isinstance(body, FlatBody) else goals)
-    return found
+        goals = placed(setting, points, frames[-1] if frames else None, on_surface)
+        frames.append(on_strokes(body, fill, goals, setting) if isinstance(body, FlatBody) else goals)
+    return frames
 
 
 def _wrong(

@@ -71,8 +71,8 @@ def all_lit(strokes: Strokes) -> Lit | None:
     if strokes.crowded:
         return None
     tries = (strokes.all_of(strokes.setting.number, slack) for slack in SLACK_SHARES)
-    found = next((goals for goals in tries if goals is not None), None)
-    return None if found is None else Lit(strokes.placed(found), len(found))
+    fitting = next((goals for goals in tries if goals is not None), None)
+    return None if fitting is None else Lit(strokes.placed(fitting), len(fitting))
 
 
 def lit(strokes: Strokes) -> Lit:
@@ -80,9 +80,9 @@ def lit(strokes: Strokes) -> Lit:
 
     Dark drones are left out if more than ``MOST_DARK_SHARE`` do not fit, or if there is no room behind.
     """
-    found = all_lit(strokes) or strokes.in_lattice()
-    if found is not None:
-        return found
+    goals = all_lit(strokes) or strokes.in_lattice()
+    if goals is not None:
+        return goals
     flat, dense = strokes.most()
     shown = strokes.placed(flat)
     spare = strokes.setting.number - len(shown)
@@ -128,8 +128,8 @@ class Strokes:
 
     def all_of(self, number: int, slack: float) -> Array | None:
         """Return that many goals: uniform in space if they fit, else uniform in the metric of the fleet."""
-        found = self._pushed(self._plain(number), slack)
-        return self._pushed(self._stretched(number), slack) if found is None else found
+        goals = self._pushed(self._plain(number), slack)
+        return self._pushed(self._stretched(number), slack) if goals is None else goals
 
     @property
     def crowded(self) -> bool:
@@ -142,10 +142,10 @@ class Strokes:
         if not self.crowded or self.fill == "outline":
             return None
         mould = self._mould(self._points(self.setting.number))
-        found = widest(mould, self.setting.number, self.setting.least)
-        if found is None:
+        lattice = widest(mould, self.setting.number, self.setting.least)
+        if lattice is None:
             return None
-        goals = self.placed(found)
+        goals = self.placed(lattice)
         free = bool((self.setting.room.lack(goals) <= 0.0).all())
         return Lit(goals, len(goals), True) if free else None
 
@@ -163,10 +163,10 @@ class Strokes:
         first = self.draw(LEAST_FLAT_POINTS)
         start = self._started(first, self._held_at_most())
         points = self._points(len(start))
-        found = thinned(start, points, self.setting.least, slack, self._held, upright=self.setting.upright)
+        goals = thinned(start, points, self.setting.least, slack, self._held, upright=self.setting.upright)
         places = self._in_lattice(points)
-        dense = len(places) > len(found) * (1.0 + 1.0 / ONE_IN)
-        return evenly(places if dense else found, self.setting.number), dense
+        dense = len(places) > len(goals) * (1.0 + 1.0 / ONE_IN)
+        return evenly(places if dense else goals, self.setting.number), dense
 
     def _points(self, number: int) -> Array:
         return np.asarray(

@@ -46,8 +46,10 @@ def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
     if faults:
         return PictureResult((), tuple(faults))
     if not layout.flown:
-        found = _remedies(task, setting, bodies, layout)
-        return PictureResult((), (too_many(task.mission, task.fleet, task.picture, found, layout.setting),))
+        ways_out = _remedies(task, setting, bodies, layout)
+        return PictureResult(
+            (), (too_many(task.mission, task.fleet, task.picture, ways_out, layout.setting),)
+        )
     frames = tuple(_frame(task, k, body, layout) for k, body in enumerate(bodies))
     return PictureResult(
         frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, bodies, layout)

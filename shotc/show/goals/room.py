@@ -94,8 +94,8 @@ def over(obstacle: Clearance, p: Array, *, every: bool) -> Array:
     """Return the rise that brings places (n, 3) above an obstacle; see ``DisplaySurroundings.up``."""
     solid = obstacle.solid
     beside_ = signed_distance(solid._replace(bottom=-inf, top=inf), p) < obstacle.metres
-    asked = beside_ if every else beside_ & (lack_of(obstacle, p) > 0.0)
-    return np.where(asked, np.maximum(solid.top + obstacle.metres - p[:, 2], 0.0), 0.0)
+    relevant = beside_ if every else beside_ & (lack_of(obstacle, p) > 0.0)
+    return np.where(relevant, np.maximum(solid.top + obstacle.metres - p[:, 2], 0.0), 0.0)
 
 
 def beside(obstacle: Clearance, bag: Pieces) -> float:
@@ -108,7 +108,7 @@ def beside(obstacle: Clearance, bag: Pieces) -> float:
     return obstacle.metres - inf_distance(bag.pick(near), obstacle.solid, lambda _: CLOSED_M).proven
 
 
-def least_shift(goals: Array, room: DisplaySurroundings) -> Array | None:
+def least_shift(goals: Array, surroundings: DisplaySurroundings) -> Array | None:
     """Return the shortest shift (3,) found that clears all goals, rounded up to centimetres, or None.
 
     Along each of several directions the goals move on by the missing clearance. Distances grow no faster than
@@ -116,21 +116,21 @@ def least_shift(goals: Array, room: DisplaySurroundings) -> Array | None:
     may exist.
     """
     best: Array | None = None
-    for way in _ways():
+    for direction in _ways():
         most = FAR_M if best is None else float(np.linalg.norm(best))
-        length = _along(goals, room, way, most)
+        length = _along(goals, surroundings, direction, most)
         if length is not None and length < most:
-            x, y, z = way * length
+            x, y, z = direction * length
             shift = np.array(outward((0.0, 0.0, 0.0), (x, y, z)))
-            if (room.lack(goals + shift) <= ROUNDING_M).all():
+            if (surroundings.lack(goals + shift) <= ROUNDING_M).all():
                 best = shift
     return best
 
 
-def _along(goals: Array, room: DisplaySurroundings, way: Array, most: float) -> float | None:
+def _along(goals: Array, surroundings: DisplaySurroundings, direction: Array, most: float) -> float | None:
     length = 0.0
     for _ in range(SHIFT_ROUNDS):
-        missing = float(room.lack(goals + length * way).max())
+        missing = float(surroundings.lack(goals + length * direction).max())
         if missing <= ROUNDING_M:
             return length
         length += max(missing, 0.005)

@@ -75,8 +75,8 @@ def _of_box(size: Array, fill: Fill, count: int, rng: np.random.Generator) -> Ar
 
 def _sides(size: Array, fill: Fill) -> tuple[Array, Array]:
     # Faces have one coordinate fixed at a half, edges two; the others are free (NaN).
-    wanted = 1 if fill == "surface" else 2
-    rows = [row for row in product((-0.5, 0.5, np.nan), repeat=3) if np.sum(~np.isnan(row)) == wanted]
+    axes = 1 if fill == "surface" else 2
+    rows = [row for row in product((-0.5, 0.5, np.nan), repeat=3) if np.sum(~np.isnan(row)) == axes]
     fixed = np.array(rows)
     return fixed, np.where(np.isnan(fixed), size, 1.0).prod(axis=1)
 

@@ -128,9 +128,9 @@ def in_lattice(setting: SpacingTask, draw: Draw) -> Array:
     draw : gives points of the volume
     """
     mould = _mould(setting, drawn(setting, draw, 3))
-    found = widest(mould, setting.number, setting.least)
-    found = laid(mould, setting.least) if found is None else found
-    goals = found / setting.scale
+    lattice = widest(mould, setting.number, setting.least)
+    lattice = laid(mould, setting.least) if lattice is None else lattice
+    goals = lattice / setting.scale
     return np.asarray(goals[setting.room.lack(goals) <= 0.0]) if len(goals) else goals
 
 
@@ -144,8 +144,8 @@ def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
     shape = drawn(setting, draw, power) * scale
     start = centroids(shape, min(_held_about(setting, shape, power), len(shape))).goals
     slack = SLACK_SHARE * setting.least
-    found = thinned(start, shape, setting.least, slack, _held(setting), upright=setting.upright)
-    return evenly(found, setting.number) / scale
+    goals = thinned(start, shape, setting.least, slack, _held(setting), upright=setting.upright)
+    return evenly(goals, setting.number) / scale
 
 
 def evenly(goals: Array, number: int) -> Array:
@@ -188,10 +188,10 @@ def _mould(setting: SpacingTask, points: Array) -> Mould:
 
 
 def _held(setting: SpacingTask) -> Hold:
-    scale, room = setting.scale, setting.room
+    scale, surroundings = setting.scale, setting.room
 
     def hold(before: Array, after: Array) -> Array:
-        return np.asarray(room.hold(before / scale, after / scale) * scale)
+        return np.asarray(surroundings.hold(before / scale, after / scale) * scale)
 
     return hold
 

@@ -91,8 +91,8 @@ class OverTerrain:
         near = _those(search(ground.surface, len(pieces), meets), pieces)
         if not near.any():
             return 0.0
-        found = inf_height(pieces.pick(near), ground, lambda _: CLOSED_M)
-        return OUTSIDE_M if isinstance(found, NoGround) else clearance - found.proven
+        bound = inf_height(pieces.pick(near), ground, lambda _: CLOSED_M)
+        return OUTSIDE_M if isinstance(bound, NoGround) else clearance - bound.proven
 
     def _leaves(self, pieces: Pieces, low: Array, high: Array) -> bool:
         """Tell whether pieces cross the terrain's border, or start beyond it."""
@@ -153,17 +153,17 @@ class BesideSurface:
         if self.mesh is None and not every:
             return np.zeros(len(p))
         rise = self._tops(p) + self.clearance - p[:, 2]
-        asked = np.flatnonzero(rise > 0.0)
-        if not every and len(asked):
-            asked = asked[self._slack(p[asked]) < 0.0]
-        found = np.zeros(len(p))
-        if len(asked):
-            at = p[asked]
+        rising = np.flatnonzero(rise > 0.0)
+        if not every and len(rising):
+            rising = rising[self._slack(p[rising]) < 0.0]
+        heights = np.zeros(len(p))
+        if len(rising):
+            at = p[rising]
             pairs = in_plan(self.surface, at[:, :2] - self.clearance, at[:, :2] + self.clearance)
-            top = np.full(len(asked), -inf)
+            top = np.full(len(rising), -inf)
             np.maximum.at(top, pairs.item, highest(self.surface.triangles[pairs.triangle])[:, 2])
-            found[asked] = np.maximum(top + self.clearance - at[:, 2], 0.0)
-        return found
+            heights[rising] = np.maximum(top + self.clearance - at[:, 2], 0.0)
+        return heights
 
     def worst(self, pieces: Pieces) -> float:
         """Return the largest missing distance on pieces, proved, m; at most 0 if the distance is kept.
@@ -175,8 +175,8 @@ class BesideSurface:
         deep = 0.0 if self.mesh is None else float(self.lack(pieces.ctrl[:, 0]).max(initial=0.0))
         if not near.any():
             return deep
-        found = inf_distance(pieces.pick(near), self.surface, lambda _: CLOSED_M)
-        return max(deep, self.clearance - found.proven)
+        bound = inf_distance(pieces.pick(near), self.surface, lambda _: CLOSED_M)
+        return max(deep, self.clearance - bound.proven)
 
     def _slack(self, p: Array) -> Array:
         if self.mesh is not None:
@@ -225,11 +225,11 @@ def _rounded(p: Array, reach: float) -> tuple[tuple[int, int], tuple[int, int]]:
 
 def _those(pairs: Pairs, pieces: Pieces) -> Mask:
     """Return the mask of pieces that occur in pairs, (M,)."""
-    found = np.zeros(len(pieces), dtype=bool)
-    found[pairs.item] = True
-    return found
+    mask = np.zeros(len(pieces), dtype=bool)
+    mask[pairs.item] = True
+    return mask
 
 
 def _top(tree: Surface, low: Array, high: Array) -> float:
-    found = in_plan(tree, low, high).triangle
-    return float(tree.triangles[found][..., 2].max(initial=-inf))
+    triangles = in_plan(tree, low, high).triangle
+    return float(tree.triangles[triangles][..., 2].max(initial=-inf))

@@ -69,8 +69,8 @@ def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> Flight
     if need.factor <= 1.0 + SLACK_SHARE:
         return FlightClock(_breaks(widths), None)
     alike = widths * need.factor * (1.0 + OVER_SHARE)
-    found = _stretched(widths, coef, granted)
-    best = alike if found is None or found.sum() >= alike.sum() else found
+    stretched = _stretched(widths, coef, granted)
+    best = alike if stretched is None or stretched.sum() >= alike.sum() else stretched
     return FlightClock(_breaks(best), need)
 
 
@@ -125,14 +125,14 @@ def _eased(aim: Array, slope: float) -> Array:
 
 def needs(widths: Array, coef: Array, limits: Limits) -> Array:
     """Return the factor by which every piece lacks time, (P,), at most 1 if it does not."""
-    found = np.zeros(len(widths))
+    ratios = np.zeros(len(widths))
     for order, share in _shares(widths, coef, limits):
         # Pieces k - 2 to k affect the control point between k and k + 1; the middle ones are stretched.
         most = share.max(axis=0)
         for back in {1: (1,), 2: (1, 0), 3: (0,)}[order]:
             piece = np.clip(np.arange(len(most)) - back, 0, len(widths) - 1)
-            np.maximum.at(found, piece, most)
-    return found
+            np.maximum.at(ratios, piece, most)
+    return ratios
 
 
 def worst(widths: Array, coef: Array, limits: Limits) -> Need:
@@ -165,18 +165,18 @@ def _named(value: Array, order: int, limits: Limits) -> tuple[str, float, float]
 
 def _shares(widths: Array, coef: Array, limits: Limits) -> list[tuple[int, Array]]:
     """Return, for each derivative, the factors of time that its control points need, (n, R)."""
-    found = []
+    shares = []
     for order in (1, 2, 3):
         values = _derivative(widths, coef, order)
         if order == 1:
             across = np.hypot(values[..., 0], values[..., 1]) / limits.speed
             up, down = values[..., 2] / limits.climb, -values[..., 2] / limits.descent
-            found.append((1, np.maximum(across, np.maximum(up, down))))
+            shares.append((1, np.maximum(across, np.maximum(up, down))))
             continue
         size = np.sqrt(np.einsum("nrd,nrd->nr", values, values))
         limit = limits.usable_acceleration if order == 2 else limits.jerk
-        found.append((order, np.asarray((size / limit) ** (1.0 / order))))
-    return found
+        shares.append((order, np.asarray((size / limit) ** (1.0 / order))))
+    return shares
 
 
 def _derivative(widths: Array, coef: Array, order: int) -> Array:

@@ -35,13 +35,13 @@ def unreadable(mission: MissionIR, display: Display, why: UnreadableFlight) -> D
     return Diagnostic("D150", message, (label,), (f"in {where}",), help_)
 
 
-def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) -> Diagnostic:
+def other_count(mission: MissionIR, display: Display, fleet: Fleet, tracks: int) -> Diagnostic:
     """Return D151: a file has not one track per drone."""
     file, label = _file(mission, display)
     count = len(fleet.pads)
     labels = (label, mission.origins.value((*fleet.path, "count"), "the fleet"))
-    message = f"`{file}` has the tracks of {found} drones, and fleet `{fleet.name}` has {count}"
-    help_ = f"write `count: {found}`, with as many pads, or give a file with {count} tracks"
+    message = f"`{file}` has the tracks of {tracks} drones, and fleet `{fleet.name}` has {count}"
+    help_ = f"write `count: {tracks}`, with as many pads, or give a file with {count} tracks"
     return Diagnostic("D151", message, labels, (), help_)
 
 
@@ -63,14 +63,14 @@ def grounded(
     return Diagnostic("D152", f"the drones of `{file}` are never all in the air", (label,), (note,), help_)
 
 
-def jumps(mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged) -> Diagnostic | None:
+def jumps(mission: MissionIR, display: Display, tracks: RecordedTracks, flight: Staged) -> Diagnostic | None:
     """Return D153 if a drone jumps, which no clock makes flyable, else None."""
-    need = found.need
+    need = flight.need
     if need is None or need.factor <= LARGEST_RATIO:
         return None
     file, label = _file(mission, display)
-    who = tracks.tracks[found.order[need.drone]].where
-    message = f"`{who}` of `{file}` jumps at {found.at:.2f} s"
+    who = tracks.tracks[flight.order[need.drone]].where
+    message = f"`{who}` of `{file}` jumps at {flight.at:.2f} s"
     notes = (f"its {_value(need)} there; to keep it, that part would last {need.factor:.0f} times as long",)
     help_ = "look at its track about that time: a segment is lost, or a time is wrong; then export it again"
     return Diagnostic("D153", message, (label,), notes, help_)
@@ -81,28 +81,32 @@ def _value(need: Need) -> str:
     return f"{need.limit} is {need.value:.1f} {unit}, and {need.most:.1f} {unit} is the limit"
 
 
-def told(
-    mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged, asked: FitRequirements
+def warnings(
+    mission: MissionIR,
+    display: Display,
+    tracks: RecordedTracks,
+    flight: Staged,
+    requirements: FitRequirements,
 ) -> list[Diagnostic]:
     """Return the warnings about a flight that is flown."""
-    names = [tracks.tracks[k].where for k in found.order]
-    said = [_slower(mission, display, names, found)] if found.longer > LEAST_TOLD_S else []
-    return said + [_by_itself(mission, display, names, lean, asked) for lean in found.leaned]
+    names = [tracks.tracks[k].where for k in flight.order]
+    said = [_slower(mission, display, names, flight)] if flight.longer > LEAST_TOLD_S else []
+    return said + [_by_itself(mission, display, names, lean, requirements) for lean in flight.leaned]
 
 
-def _slower(mission: MissionIR, display: Display, names: Sequence[str], found: Staged) -> Diagnostic:
+def _slower(mission: MissionIR, display: Display, names: Sequence[str], flight: Staged) -> Diagnostic:
     file, label = _file(mission, display)
-    length = found.part[1] - found.part[0]
+    length = flight.part[1] - flight.part[0]
     message = (
-        f"`{file}` is flown in {at_least(length + found.longer)} s instead of {plain(length, 2)} s:"
+        f"`{file}` is flown in {at_least(length + flight.longer)} s instead of {plain(length, 2)} s:"
         " its drones are too fast for the limits"
     )
     notes = []
-    if found.need is not None:
-        who = names[found.need.drone]
+    if flight.need is not None:
+        who = names[flight.need.drone]
         notes.append(
-            f"worst at {found.at:.2f} s of the file: `{who}`, whose {_value(found.need)};"
-            f" there it takes {found.need.factor:.2f} times as long"
+            f"worst at {flight.at:.2f} s of the file: `{who}`, whose {_value(flight.need)};"
+            f" there it takes {flight.need.factor:.2f} times as long"
         )
     notes.append("all drones keep one clock, so the formations are those of the file")
     if mission.music is not None:
@@ -112,15 +116,15 @@ def _slower(mission: MissionIR, display: Display, names: Sequence[str], found: S
 
 
 def _by_itself(
-    mission: MissionIR, display: Display, names: Sequence[str], why: Leaned, asked: FitRequirements
+    mission: MissionIR, display: Display, names: Sequence[str], why: Leaned, requirements: FitRequirements
 ) -> Diagnostic:
     file, label = _file(mission, display)
     what, verb = ("landing", "comes home") if why.landing else ("take-off", "takes off")
     who = names[why.drone]
     message = f"the {what} of `{file}` is not flown: the fleet {verb} by itself"
     note = (
-        f"a fleet goes straight up and down over its pads until all are {asked.clear:.2f} m above the ground;"
-        f" `{who}` is {why.metres:.2f} m off at {why.time:.2f} s of the file"
+        f"a fleet goes straight up and down over its pads until all are {requirements.clear:.2f} m above the "
+        f"ground; `{who}` is {why.metres:.2f} m off at {why.time:.2f} s of the file"
     )
-    help_ = f"let all drones go straight up over their pads to {asked.clear:.2f} m, or leave it so"
+    help_ = f"let all drones go straight up over their pads to {requirements.clear:.2f} m, or leave it so"
     return Diagnostic("D155", message, (label,), (note,), help_)

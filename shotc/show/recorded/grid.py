@@ -40,8 +40,8 @@ def step_of(step: float, slower: float = 1.0) -> float:
     step : interval of the file's rows, s
     slower : duration of the flight over that of the file
     """
-    wanted = PIECE_S / slower
-    return wanted if step <= 0.0 else step * max(1, round(wanted / step))
+    ideal = PIECE_S / slower
+    return ideal if step <= 0.0 else step * max(1, round(ideal / step))
 
 
 def sources(start: float, end: float, step: float, rests: tuple[bool, bool]) -> Array:
@@ -128,8 +128,8 @@ def _excess(breaks: Array, times: Array, of: tuple[Array, Array], m: int) -> Arr
     corner = four[:, m : m + 1]
     above = np.maximum(four - corner, 0.0)
     mean = np.einsum("pms,ps->pm", _basis(breaks, share), above)
-    found = mean[:, 1:] - np.maximum(clock[:, :-1] - corner, 0.0)
-    return np.asarray(np.maximum(found, 0.0))
+    excess = mean[:, 1:] - np.maximum(clock[:, :-1] - corner, 0.0)
+    return np.asarray(np.maximum(excess, 0.0))
 
 
 def _basis(breaks: Array, share: Array) -> Array:
@@ -137,8 +137,8 @@ def _basis(breaks: Array, share: Array) -> Array:
     at = breaks[:-1, None] + share * np.diff(breaks)[:, None]
     inside = np.clip(at, breaks[:-1, None], np.nextafter(breaks[1:, None], -np.inf))
     matrix = BSpline.design_matrix(inside.ravel(), knots(breaks), DEGREE)
-    found: Array = np.array(matrix.data, dtype=np.float64).reshape(*at.shape, DEGREE + 1)
-    return found
+    values: Array = np.array(matrix.data, dtype=np.float64).reshape(*at.shape, DEGREE + 1)
+    return values
 
 
 def _off_track(curve: Piecewise, times: Array, points: Array) -> float:

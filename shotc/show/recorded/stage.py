@@ -110,32 +110,34 @@ class _Part(NamedTuple):
     down: int
 
 
-def staged(display: str, tracks: RecordedTracks, asked: FitRequirements) -> Staged | Grounded:
+def staged(display: str, tracks: RecordedTracks, requirements: FitRequirements) -> Staged | Grounded:
     """Return the flight of a file that has as many tracks as there are pads.
 
     If it takes longer than its file, control points are denser in the file's time, so that they are as dense
     as usual in the flight's time.
     """
-    found = _staged(display, tracks, asked, step_of(tracks.step))
-    if isinstance(found, Grounded) or found.longer <= 0.0:
-        return found
-    start, end = found.part
-    slower = min(1.0 + found.longer / (end - start), FINEST_RATIO)
+    flight = _staged(display, tracks, requirements, step_of(tracks.step))
+    if isinstance(flight, Grounded) or flight.longer <= 0.0:
+        return flight
+    start, end = flight.part
+    slower = min(1.0 + flight.longer / (end - start), FINEST_RATIO)
     finer = step_of(tracks.step, slower)
-    return found if finer >= step_of(tracks.step) else _staged(display, tracks, asked, finer)
+    return flight if finer >= step_of(tracks.step) else _staged(display, tracks, requirements, finer)
 
 
-def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: float) -> Staged | Grounded:
-    order, on_pads = _order(tracks, asked)
+def _staged(
+    display: str, tracks: RecordedTracks, requirements: FitRequirements, step: float
+) -> Staged | Grounded:
+    order, on_pads = _order(tracks, requirements)
     tracks = replace(tracks, tracks=tuple(tracks.tracks[k] for k in order))
     times = sources(0.0, tracks.end, step, (True, True))
     points = points_of(tracks.tracks, times)
-    part = _part(_heights(points, asked), times, asked.clear)
+    part = _part(_heights(points, requirements), times, requirements.clear)
     if isinstance(part, Grounded):
         return part
-    ends = _landed(points[:, -1], asked)
+    ends = _landed(points[:, -1], requirements)
     leaned: list[Leaned] = []
-    up = _upright(points, times, (asked.pads, part.up + DEGREE), leaned) if on_pads else False
+    up = _upright(points, times, (requirements.pads, part.up + DEGREE), leaned) if on_pads else False
     down = False
     if ends is not None:
         down = _upright(points, times, (ends, part.down - len(times)), leaned)
@@ -150,11 +152,11 @@ def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: 
     rise, fall = part.up if up else None, count - after if down else None
     coef = _stood(points)
     if rise is not None:
-        _over(coef[:, : rise + DEGREE], asked.pads, 0)
+        _over(coef[:, : rise + DEGREE], requirements.pads, 0)
     if fall is not None and ends is not None:
         _over(coef[:, fall:], ends, -1)
     coef = np.round(coef, CONTROL_DECIMALS)
-    clock = clocked(coef, step, asked.limits, tracks.rounding)
+    clock = clocked(coef, step, requirements.limits, tracks.rounding)
     off, whose = bound(tracks.tracks, times, clock.breaks, coef)
     flight = Recorded(
         display,
@@ -170,19 +172,19 @@ def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: 
     return Staged(flight, order, (start, end), off, whose, clock.need, at, longer, tuple(leaned))
 
 
-def _order(tracks: RecordedTracks, asked: FitRequirements) -> tuple[NDArray[np.intp], bool]:
+def _order(tracks: RecordedTracks, requirements: FitRequirements) -> tuple[NDArray[np.intp], bool]:
     """Return the tracks in the order of the pads where they start, and whether each starts on a pad."""
     starts = np.stack([track.curve.ctrl[0, 0] for track in tracks.tracks])
-    away, nearest = cKDTree(starts).query(asked.pads)
-    fits = asked.first and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    away, nearest = cKDTree(starts).query(requirements.pads)
+    fits = requirements.first and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
     return (np.asarray(nearest) if fits else np.arange(len(starts))), bool(fits)
 
 
-def _landed(ends: Array, asked: FitRequirements) -> Array | None:
+def _landed(ends: Array, requirements: FitRequirements) -> Array | None:
     """Return the pads (n, 3) on which drones end, if each ends on its own, else None."""
-    away, nearest = cKDTree(asked.pads).query(ends)
-    fits = asked.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
-    return asked.pads[nearest] if fits else None
+    away, nearest = cKDTree(requirements.pads).query(ends)
+    fits = requirements.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    return requirements.pads[nearest] if fits else None
 
 
 def _heights(points: Array, asked: FitRequirements) -> Array:
@@ -237,24 +239,24 @@ def _over(points: Array, pads: Array, at_rest: int) -> None:
 
 def _stood(points: Array) -> Array:
     """Return control points made equal where all drones stand except for the rounding of a file."""
-    found = points.copy()
+    stood = points.copy()
     first = 0
-    for k in range(1, found.shape[1] + 1):
-        if k < found.shape[1] and norm(found[:, k] - found[:, first]).max() <= STILL_M:
+    for k in range(1, stood.shape[1] + 1):
+        if k < stood.shape[1] and norm(stood[:, k] - stood[:, first]).max() <= STILL_M:
             continue
         if k - first >= STOP_POINTS:
-            found[:, first:k] = found[:, first : first + 1]
+            stood[:, first:k] = stood[:, first : first + 1]
         first = k
-    return found
+    return stood
 
 
 def _lights(tracks: RecordedTracks, times: Array, breaks: Array) -> Lights:
     """Return the lights by the flight's clock; times : of the file, for the control points, (K,)."""
-    told, colors = colors_at(tracks, float(times[0]), float(times[-1]))
+    sampled, colors = colors_at(tracks, float(times[0]), float(times[-1]))
     inner = slice(DEGREE, -DEGREE)
     known = np.concatenate([times[:1], times[inner], times[-1:]])
     flown = np.concatenate([breaks[:1], centres(breaks)[inner], breaks[-1:]])
-    return Lights(np.round(np.interp(told, known, flown), 6), colors)
+    return Lights(np.round(np.interp(sampled, known, flown), 6), colors)
 
 
 def _shown(breaks: Array, first: int, last: int) -> tuple[float, ...]:

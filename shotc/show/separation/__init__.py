@@ -44,13 +44,13 @@ class KeepApart:
         diagnostics: list[Diagnostic] = []
         warnings: list[Diagnostic] = []
         fleets, stats = [], list(ir.stats)
-        for flight, wanted in zip(ir.fleets, ir.wanted, strict=True):
+        for flight, reference in zip(ir.fleets, ir.wanted, strict=True):
             ctx.progress(f"separation in fleet {flight.fleet}")
-            keeper = Keeper(mission, mission.fleet(flight.fleet), flight, wanted, ctx)
+            keeper = Keeper(mission, mission.fleet(flight.fleet), flight, reference, ctx)
             fleets.append(keeper.keep())
             diagnostics += keeper.faults
             stats += keeper.stats()
-            off = farthest(fleets[-1], wanted)
+            off = farthest(fleets[-1], reference)
             stats += off.stats(flight.fleet)
             if off.distance > MUCH_SHARE * straight_spacing(keeper.fleet.apart):
                 warnings.append(bent(mission, keeper.fleet, off))

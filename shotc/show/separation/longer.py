@@ -51,7 +51,7 @@ class MoveBetweenStops:
     from_pads: bool
 
     @staticmethod
-    def of(flight: FleetTrajectory, breaks: Array, wanted: Array) -> MoveBetweenStops:
+    def of(flight: FleetTrajectory, breaks: Array, reference: Array) -> MoveBetweenStops:
         """Return the stretch between two stops of a flight."""
         start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
         inside = [shown for shown in flight.shown if start <= shown.start <= end]
@@ -62,7 +62,9 @@ class MoveBetweenStops:
             if shown is not None and (s.display, s.picture) == (shown.display, shown.picture)
         ]
         from_pads = float(breaks[-1]) <= flight.shown[0].start + 1e-9
-        return MoveBetweenStops(breaks, wanted, shown, "period" if len(same) > 1 else "transition", from_pads)
+        return MoveBetweenStops(
+            breaks, reference, shown, "period" if len(same) > 1 else "transition", from_pads
+        )
 
     @property
     def pieces(self) -> int:

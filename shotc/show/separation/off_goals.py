@@ -32,17 +32,17 @@ class Off:
         return [(f"{name}, largest m", self.distance), (f"{name}, where", frame)]
 
 
-def farthest(flight: FleetTrajectory, wanted: Array) -> Off:
+def farthest(flight: FleetTrajectory, reference: Array) -> Off:
     """Return the drone that is farthest from its goal, over all frames.
 
-    wanted : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
+    reference : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
         point for the break at which it is shown (``geom.fleet_spline.centres``).
     """
     times = np.array([shown.start for shown in flight.shown])
     at = np.abs(flight.breaks[:, None] - times).argmin(axis=0)
-    goals = wanted[:, at + 1]
+    goals = reference[:, at + 1]
     off = np.linalg.norm(places(flight.breaks, flight.coef, times) - goals, axis=2)
     drone, frame = (int(k) for k in np.unravel_index(int(off.argmax()), off.shape))
-    asked = places(flight.breaks, wanted[drone : drone + 1], times[frame : frame + 1])[0, 0]
-    smooth = float(np.linalg.norm(asked - goals[drone, frame]))
+    place = places(flight.breaks, reference[drone : drone + 1], times[frame : frame + 1])[0, 0]
+    smooth = float(np.linalg.norm(place - goals[drone, frame]))
     return Off(float(off[drone, frame]), smooth, drone, flight.shown[frame])

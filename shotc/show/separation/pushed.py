@@ -51,25 +51,25 @@ class Pushed:
 
 
 def pushed(
-    breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS, free: slice = INNER
+    breaks: Array, reference: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS, free: slice = INNER
 ) -> Pushed:
     """Push the drones of a stretch apart.
 
     With too few iterations there is no result; additional ones change nothing.
 
     breaks : shape (P + 1,)
-    wanted : control points within the limits, shape (n, P + 3, 3)
+    reference : control points within the limits, shape (n, P + 3, 3)
     free : the control points that may change
     """
     bounds = DerivativeBounds(fleet.limits)
     pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart, free)
     rng = np.random.default_rng(seed)
-    coef, movable, reached = wanted, np.zeros(0, dtype=np.intp), 0.0
+    coef, movable, reached = reference, np.zeros(0, dtype=np.intp), 0.0
     for k in range(rounds):
         distance = fleet.apart.across * (1.0 + MARGIN_SHARES[0] + k * MARGIN_SHARES[1])
         crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
         coef, movable = _shaken(coef, crowded, free, rng), np.union1d(movable, crowded)
-        coef = pusher.push(coef, wanted, movable, Push(distance, APART_WEIGHT * WEIGHT_RATIO**k))
+        coef = pusher.push(coef, reference, movable, Push(distance, APART_WEIGHT * WEIGHT_RATIO**k))
         if len(pusher.crowded(coef, (1.0 - HOPELESS_SHARE) * fleet.apart.across)):
             continue
         done = bounded(breaks, np.round(coef, CONTROL_DECIMALS), bounds, free)

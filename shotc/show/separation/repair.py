@@ -34,10 +34,10 @@ class Keeper:
     """Repairs the flight of one fleet; wanted : control points that its goals ask for, as in ``ShowIR``."""
 
     def __init__(
-        self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, wanted: Array, ctx: PassContext
+        self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, reference: Array, ctx: PassContext
     ) -> None:
         self.mission, self.fleet, self.flight, self.ctx = mission, fleet, flight, ctx
-        self.wanted = wanted
+        self.wanted = reference
         self.across = fleet.apart.across
         self.coef = flight.coef.copy()
         self.faults: list[Diagnostic] = []

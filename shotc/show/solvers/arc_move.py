@@ -86,17 +86,17 @@ def fastest_arc(
     """
     drones = Drones.of(ends, pivot, limits, pace)
     busy = drones.busiest()
-    found = _shortest(busy, free, easing)
-    least = float(free.least_share(found))
+    ctrl = _shortest(busy, free, easing)
+    least = float(free.least_share(ctrl))
     if least < 1.0:
-        found = np.concatenate([found[:3], found[3:-3] / least, found[-3:]])
-    pieces, drone, limit = drones.binding(found)
-    return ArcMove(found, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
+        ctrl = np.concatenate([ctrl[:3], ctrl[3:-3] / least, ctrl[-3:]])
+    pieces, drone, limit = drones.binding(ctrl)
+    return ArcMove(ctrl, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
 
 
 def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
     """Return the control points of (a, b), shape (K, 2), of the fastest move."""
-    best, found = (1.0, inf), np.zeros((0, 2))
+    best, shortest = (1.0, inf), np.zeros((0, 2))
     for line in free.ways():
         at = times_of(busy, line)
         share = np.linspace(0.0, 1.0, len(line))
@@ -112,8 +112,8 @@ def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
             lacks = np.maximum(1.0 - LACK_SHARE - free.least_share(ctrl), 0.0)
             k = int(np.lexsort((seconds, lacks))[0])
             if (lacks[k], float(seconds[k]) * WORTH_RATIO) < best:
-                best, found = (float(lacks[k]), float(seconds[k])), ctrl[k]
-    return found
+                best, shortest = (float(lacks[k]), float(seconds[k])), ctrl[k]
+    return shortest
 
 
 def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:

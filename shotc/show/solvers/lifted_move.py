@@ -236,8 +236,8 @@ def _fastest(busy: Drones, course: Course, path: RisingPath, line: Array, easing
         lift = height[able] * times_higher[able, None]
         least = busy.least_pieces(ctrl[able], lift)
         k = int(least.argmin())
-        found = LiftedShape(ctrl[able][k], lift[k], float(least[k]) * pieces)
-        best = min(best, found, key=lambda one: one.seconds)
+        shape = LiftedShape(ctrl[able][k], lift[k], float(least[k]) * pieces)
+        best = min(best, shape, key=lambda one: one.seconds)
     return best
 
 
@@ -278,11 +278,11 @@ def _enough(height: Array, need: Array) -> float:
 
     need : at the points of ``sampled``, shape (T,), m
     """
-    asked = need > LEAST_M
-    if not asked.any():
+    rising = need > LEAST_M
+    if not rising.any():
         return 1.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        return float(((need[asked] + BEYOND_M) / sampled(height)[asked]).max())
+        return float(((need[rising] + BEYOND_M) / sampled(height)[rising]).max())
 
 
 def _concave(at: Array, values: Array) -> Array:

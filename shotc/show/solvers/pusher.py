@@ -71,22 +71,22 @@ class Pusher:
         count = int(np.ceil((self.breaks[-1] - self.breaks[0]) / step))
         return np.linspace(self.breaks[0], self.breaks[-1], count + 1)
 
-    def crowded(self, coef: Array, wanted: float) -> Index:
-        """Return the drones that come nearer to another one than ``wanted`` at samples."""
+    def crowded(self, coef: Array, distance: float) -> Index:
+        """Return the drones that come nearer to another one than ``distance`` at samples."""
         times = self.samples(coef)
         at = places(self.breaks, coef, times) * self.scale
-        found = [self.pairs(at[:, k], wanted) for k in range(len(times))]
-        return np.unique(np.concatenate(found))
+        crowded_drones = [self.pairs(at[:, k], distance) for k in range(len(times))]
+        return np.unique(np.concatenate(crowded_drones))
 
-    def push(self, start: Array, wanted: Array, movable: Index, push: Push) -> Array:
+    def push(self, start: Array, distance: Array, movable: Index, push: Push) -> Array:
         """Return improved control points, shape (n, K, 3).
 
         start : control points to start from, shape (n, K, 3)
-        wanted : control points from which deviation is measured, shape (n, K, 3)
+        distance : control points from which deviation is measured, shape (n, K, 3)
         movable : the drones whose points may change
         """
-        cost = _Cost(self, start, wanted, movable, push)
-        found = minimize(
+        cost = _Cost(self, start, distance, movable, push)
+        optimum = minimize(
             cost,
             cost.begin(),
             jac=True,
@@ -94,7 +94,7 @@ class Pusher:
             options={"maxiter": MOST_ITERATIONS, "maxcor": 12},
         )
         result = start.copy()
-        inner = found.x.reshape(-1, len(movable), 3)
+        inner = optimum.x.reshape(-1, len(movable), 3)
         result[movable, self.free] = np.moveaxis(inner, 0, 1)
         return result
 
@@ -129,12 +129,12 @@ def slopes(relative: Array, size: Array, apart: Distances) -> Array:
 class _Cost:
     """The cost as a function of the movable drones' free points, shape (F, m, 3)."""
 
-    def __init__(self, pusher: Pusher, start: Array, wanted: Array, movable: Index, push: Push) -> None:
+    def __init__(self, pusher: Pusher, start: Array, distance: Array, movable: Index, push: Push) -> None:
         self.pusher, self.push = pusher, push
         self.free = pusher.free
         self.shape = (len(range(*self.free.indices(start.shape[1]))), len(movable), 3)
         self.start = np.moveaxis(start[movable], 1, 0)
-        self.wanted = np.moveaxis(wanted[movable], 1, 0)[self.free]
+        self.wanted = np.moveaxis(distance[movable], 1, 0)[self.free]
         self.ends = self.start.copy()
         self.ends[self.free] = 0.0
         self._rows()
@@ -159,14 +159,14 @@ class _Cost:
         # Rows of the movable drones; -1 for fixed drones.
         row = np.full(len(start), -1, dtype=np.intp)
         row[movable] = np.arange(len(movable))
-        found, fixed = [], []
+        rows, fixed = [], []
         for k in range(len(times)):
             pairs = pusher.pairs(at[:, k], reach)
             pairs = np.where((row[pairs[:, 0]] < 0)[:, None], pairs[:, ::-1], pairs)
             pairs = pairs[row[pairs[:, 0]] >= 0]
-            found.append(np.column_stack([np.full(len(pairs), k), row[pairs]]))
+            rows.append(np.column_stack([np.full(len(pairs), k), row[pairs]]))
             fixed.append(at[pairs[:, 1], k])
-        pairs, self.fixed = np.concatenate(found), np.concatenate(fixed)
+        pairs, self.fixed = np.concatenate(rows), np.concatenate(fixed)
         self.both = pairs[:, 2] >= 0
         # Indices of both drones in a flat list of all movable drones at all times; fixed drones have none.
         self.first = pairs[:, 0] * len(movable) + pairs[:, 1]

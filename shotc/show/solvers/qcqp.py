@@ -108,30 +108,30 @@ def overdraft(breaks: Array, coef: Array, bounds: DerivativeBounds) -> Array:
     return worst
 
 
-def bounded(breaks: Array, wanted: Array, bounds: DerivativeBounds, free: slice = INNER) -> Bounded:
+def bounded(breaks: Array, reference: Array, bounds: DerivativeBounds, free: slice = INNER) -> Bounded:
     """Return for every drone the nearest spline within its bounds.
 
     Drones within the bounds are returned unchanged, bit for bit.
 
     breaks : shape (P + 1,)
-    wanted : control points, shape (n, P + 3, 3)
+    reference : control points, shape (n, P + 3, 3)
     free : the control points that may change
     """
-    bad = np.flatnonzero(overdraft(breaks, wanted, bounds) > 0.0)
-    coef, failed, exact, most = wanted.copy(), [], 0, 0
+    bad = np.flatnonzero(overdraft(breaks, reference, bounds) > 0.0)
+    coef, failed, exact, most = reference.copy(), [], 0, 0
     if not len(bad):
         return Bounded(coef, bad, 0, 0, 0)
     programme = FleetProgramme(breaks, bounds.scaled(LIMIT_SHARE), free)
     for at in range(0, len(bad), BLOCK_DRONES):
         rows = bad[at : at + BLOCK_DRONES]
-        coef[rows], done, iterations = programme.solve(wanted[rows])
+        coef[rows], done, iterations = programme.solve(reference[rows])
         most = max(most, iterations)
         for row in rows[~done | (overdraft(breaks, coef[rows], bounds) > 0.0)]:
             exact += 1
-            solved = programme.solve_exactly(wanted[row])
+            solved = programme.solve_exactly(reference[row])
             if solved is None or overdraft(breaks, solved[None], bounds)[0] > 0.0:
                 failed.append(int(row))
-                solved = wanted[row]
+                solved = reference[row]
             coef[row] = solved
     return Bounded(coef, np.array(failed, dtype=np.intp), len(bad), most, exact)
 
@@ -211,14 +211,14 @@ class FleetProgramme:
         self.steps = STEP_RATIOS * float(np.trace(self.inner) / np.trace(gram))
         self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
 
-    def solve(self, wanted: Array) -> Optimum:
+    def solve(self, reference: Array) -> Optimum:
         """Return control points near the optimum, (n, K, 3), which drones reached it, and the slowest's
         iterations.
         """
-        state = _State.of(self, wanted)
-        done = np.zeros(len(wanted), dtype=bool)
-        result, active, rounds = wanted.copy(), np.arange(len(wanted)), 0
-        levels = np.full(len(wanted), len(STEP_RATIOS) // 2)
+        state = _State.of(self, reference)
+        done = np.zeros(len(reference), dtype=bool)
+        result, active, rounds = reference.copy(), np.arange(len(reference)), 0
+        levels = np.full(len(reference), len(STEP_RATIOS) // 2)
         while len(active) and rounds < MOST_ROUNDS:
             rounds += 1
             for level in np.unique(levels[active]):
@@ -233,7 +233,7 @@ class FleetProgramme:
         result[:, self.within] = state.points()
         return Optimum(result, done, rounds * ROUND_ITERATIONS)
 
-    def solve_exactly(self, wanted: Array) -> Array | None:
+    def solve_exactly(self, reference: Array) -> Array | None:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""
         root = np.linalg.cholesky(self.inner + 1e-12 * np.eye(len(self.inner)))
         count = len(root)
@@ -245,7 +245,7 @@ class FleetProgramme:
             ]
             terms += [(np.full(count, axis * count + k), root[k]) for k in range(count)]
             rows.zero(terms)
-        base = self.dense @ wanted
+        base = self.dense @ reference
         for part in self.rows:
             self._cones(rows, part, base[part.span])
         cost = np.zeros(6 * count)
@@ -253,7 +253,7 @@ class FleetProgramme:
         status, x = rows.solve(cost, 1e-9, squares)
         if status is not Status.SOLVED:
             return None
-        result = wanted.copy()
+        result = reference.copy()
         result[self.within] += x[: 3 * count].reshape(3, count).T
         return result
 
@@ -315,10 +315,10 @@ class _State:
     u: Array
 
     @staticmethod
-    def of(programme: FleetProgramme, wanted: Array) -> _State:
+    def of(programme: FleetProgramme, reference: Array) -> _State:
         """Start at the wanted splines; wanted : shape (n, K, 3)."""
-        flat = np.ascontiguousarray(np.moveaxis(wanted, 1, 0))
-        count = len(wanted)
+        flat = np.ascontiguousarray(np.moveaxis(reference, 1, 0))
+        count = len(reference)
         ends = np.delete(flat, programme.within, axis=0)
         base = (programme.ends @ ends.reshape(len(ends), -1)).reshape(-1, count, 3)
         inner = flat[programme.within]

@@ -64,8 +64,8 @@ class WaveMove:
     @property
     def s(self) -> Array:
         """Return the control points of the shares of the paths, shape (n, pieces + 3)."""
-        since = (np.arange(self.pieces + 3) - 2.0) * self.piece
-        return profile(np.clip((since - self.departs[:, None]) / self.own, 0.0, 1.0), self.ramps)
+        elapsed = (np.arange(self.pieces + 3) - 2.0) * self.piece
+        return profile(np.clip((elapsed - self.departs[:, None]) / self.own, 0.0, 1.0), self.ramps)
 
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""

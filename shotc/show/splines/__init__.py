@@ -38,17 +38,17 @@ class BoundSplines:
     def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[ShowIR]:
         """Bring every fleet within its limits."""
         mission = ir.goals.keyframes.mission
-        fleets, stats, found = [], list(ir.stats), []
+        fleets, stats, faults = [], list(ir.stats), []
         for flight in ir.fleets:
             ctx.progress(f"limits of fleet {flight.fleet}")
             done = _Fitter(mission, mission.fleet(flight.fleet), flight)
             for window in windows(flight.coef):
                 done.fit(window)
-            found += done.faults
+            faults += done.faults
             stats += done.stats()
             fleets.append(replace(flight, coef=done.coef))
-        if found:
-            return Outcome(None, tuple(found))
+        if faults:
+            return Outcome(None, tuple(faults))
         return Outcome(replace(ir, fleets=tuple(fleets), stats=tuple(stats)))
 
 
@@ -65,34 +65,34 @@ class _Fitter:
     def fit(self, window: Window) -> None:
         """Bring one window within the limits, or add a fault."""
         breaks = window.breaks(self.flight.breaks)
-        wanted = self.flight.coef[:, window.points]
-        if not (overdraft(breaks, wanted, self.bounds) > 0.0).any():
+        reference = self.flight.coef[:, window.points]
+        if not (overdraft(breaks, reference, self.bounds) > 0.0).any():
             return
-        slow = self._slowest(breaks, wanted)
-        if slow is not None and bounded(breaks, wanted[[slow]], self.bounds).failed.size:
-            self.faults.append(self._too_quick(breaks, wanted, slow))
+        slow = self._slowest(breaks, reference)
+        if slow is not None and bounded(breaks, reference[[slow]], self.bounds).failed.size:
+            self.faults.append(self._too_quick(breaks, reference, slow))
             return
-        done = bounded(breaks, wanted, self.bounds)
+        done = bounded(breaks, reference, self.bounds)
         self.done.append(done)
         if len(done.failed):
-            self.faults.append(self._too_quick(breaks, wanted, int(done.failed[0])))
+            self.faults.append(self._too_quick(breaks, reference, int(done.failed[0])))
             return
         self.coef[:, window.points] = short(breaks, done.coef, self.bounds, CONTROL_DECIMALS)
 
-    def _slowest(self, breaks: Array, wanted: Array) -> int | None:
+    def _slowest(self, breaks: Array, reference: Array) -> int | None:
         """Return a drone that could not even fly straight from the first to the last position in time, or
         None.
         """
-        ways, pieces = wanted[:, -1] - wanted[:, 0], len(breaks) - 1
+        ways, pieces = reference[:, -1] - reference[:, 0], len(breaks) - 1
         least = least_pieces(pieces, ways, self.fleet.limits)
         slow = int(np.argmax(least))
         return slow if least[slow] > np.diff(breaks).min() else None
 
-    def _too_quick(self, breaks: Array, wanted: Array, drone: int) -> Diagnostic:
-        ways = wanted[:, -1] - wanted[:, 0]
+    def _too_quick(self, breaks: Array, reference: Array, drone: int) -> Diagnostic:
+        ways = reference[:, -1] - reference[:, 0]
         period = least_piece(len(breaks) - 1, ways, self.fleet.limits)
-        way = float(np.linalg.norm(ways[drone]))
-        return too_quick(self.mission, self.fleet, (self.flight, float(breaks[0])), (drone, way), period)
+        distance = float(np.linalg.norm(ways[drone]))
+        return too_quick(self.mission, self.fleet, (self.flight, float(breaks[0])), (drone, distance), period)
 
     def stats(self) -> list[tuple[str, float | str]]:
         """Return the statistics of the fleet."""

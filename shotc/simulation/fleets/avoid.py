@@ -40,19 +40,19 @@ class Avoidance:
     period: float
     _world: Any = field(init=False, default=None)
 
-    def __call__(self, position: Array, velocity: Array, wanted: Array) -> Array:
+    def __call__(self, position: Array, velocity: Array, preferred: Array) -> Array:
         """Return velocities (n, 3), m/s, nearest to the preferred ones, without conflict within
         the horizon.
         """
         height = np.array([1.0, 1.0, stretch(self.apart)])
         if self._world is None:
             self._world = self._filled(position * height)
-        agents = zip((position * height).tolist(), (velocity * height).tolist(), (wanted * height).tolist(),
-                     strict=True)  # fmt: skip
-        for i, (at, moving, asked) in enumerate(agents):
+        rows = (position * height, velocity * height, preferred * height)
+        agents = zip(*(each.tolist() for each in rows), strict=True)
+        for i, (at, moving, goal_velocity) in enumerate(agents):
             self._world.setAgentPosition(i, tuple(at))
             self._world.setAgentVelocity(i, tuple(moving))
-            self._world.setAgentPrefVelocity(i, tuple(asked))
+            self._world.setAgentPrefVelocity(i, tuple(goal_velocity))
         self._world.doStep()
         velocities = np.array([self._world.getAgentVelocity(i) for i in range(len(position))])
         return np.asarray(velocities / height)

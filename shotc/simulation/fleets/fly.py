@@ -84,8 +84,8 @@ def flying(
     state = FleetState(position, still, still, conditions.gusts.at_first(len(position), rng))
     for now in (np.arange(round((breaks[-1] - breaks[0]) / PERIOD_S) + 1) * PERIOD_S + breaks[0]).tolist():
         ask = preferred(reference, conditions.gains, now, state.position, state.over_ground)
-        wanted = reference.together(np.array([now]))[:, 0]
-        yield FleetSample(now, state.position, state.over_ground, wanted, ask)
+        planned = reference.together(np.array([now]))[:, 0]
+        yield FleetSample(now, state.position, state.over_ground, planned, ask)
         if avoid is not None:
             ask = avoid(state.position, state.over_ground, within(ask, conditions.vehicle.speed))
         state = moved(conditions.vehicle, state, ask, PERIOD_S)

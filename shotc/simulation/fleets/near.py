@@ -88,8 +88,8 @@ class Across:
         far = wide * max(self._limit, min(self._best.distance, now)) + moved
         if now > far:
             return
-        found = trees[0].sparse_distance_matrix(trees[1], far * (1.0 + 1e-9), output_type="ndarray")
-        i, j = found["i"], found["j"]
+        near_pairs = trees[0].sparse_distance_matrix(trees[1], far * (1.0 + 1e-9), output_type="ndarray")
+        i, j = near_pairs["i"], near_pairs["j"]
         least, share = _least(one[i] - other[j], one_end[i] - other_end[j], self._upright)
         self._low.update(zip(i[least < self._limit].tolist(), j[least < self._limit].tolist(), strict=True))
         m = int(np.argmin(least))

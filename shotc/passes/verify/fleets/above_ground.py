@@ -70,6 +70,6 @@ def _over(terrain: Terrain, unknown: float) -> Callable[[Array], Array]:
     return over
 
 
-def _known(found: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
+def _known(bound: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
     """Return a bound, or where somebody leaves the terrain one that holds nothing."""
-    return ProvedExtreme(unknown, unknown, found.at) if isinstance(found, NoGround) else found
+    return ProvedExtreme(unknown, unknown, bound.at) if isinstance(bound, NoGround) else bound

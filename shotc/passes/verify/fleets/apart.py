@@ -71,8 +71,8 @@ def between(mission: MissionIR, fleets: tuple[Fleet, Fleet], flown: Spline, besi
     """
     one, other = fleets
     apart = stricter(one.apart, other.apart)
-    found = apart, closest_between(*flown, *beside, apart)
-    return _claim(mission, (one, drone_names(other)), f"separation from {other.name}", found)
+    separation = apart, closest_between(*flown, *beside, apart)
+    return _claim(mission, (one, drone_names(other)), f"separation from {other.name}", separation)
 
 
 def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -97,14 +97,14 @@ def _away(pad: Array, places: Array) -> Array:
 
 
 def _claim(
-    mission: MissionIR, of: tuple[Fleet, tuple[str, ...]], name: str, found: tuple[Apart, Nearest]
+    mission: MissionIR, of: tuple[Fleet, tuple[str, ...]], name: str, separation: tuple[Apart, Nearest]
 ) -> Claim:
     """Return the claim on the distance of a fleet's drones from others.
 
     of : the fleet, and the names of the others
-    found : the separation, and the least distance
+    separation : the separation, and the least distance
     """
-    (one, others), (apart, nearest) = of, found
+    (one, others), (apart, nearest) = of, separation
     limit = Limit(name, apart.across, "m", _path(mission, one), upper=False)
     worst = WorstValue(nearest.proven, nearest.time, "bounded", nearest.position)
     return held(one.name, limit, worst, (drone_names(one)[nearest.first], others[nearest.second]))

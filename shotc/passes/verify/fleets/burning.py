@@ -57,10 +57,10 @@ def near_surfaces(flight: FleetFlight, rows: Sequence[int], span: Span, least: f
         yield _over_flat_ground(burning, rows)
     else:
         of = _of_terrain(burning, terrain, least)
-        yield _told(flight, rows, (GROUND, of), lambda p: _from_terrain(terrain, p))
+        yield _nearest_drone(flight, rows, (GROUND, of), lambda p: _from_terrain(terrain, p))
     for mesh in flight.mission.meshes:
         bound = _of_mesh(burning, mesh, least)
-        yield _told(flight, rows, (from_mesh(mesh), bound), mesh.signed_distance)
+        yield _nearest_drone(flight, rows, (from_mesh(mesh), bound), mesh.signed_distance)
 
 
 def from_mesh(mesh: ObstacleMesh) -> str:
@@ -104,7 +104,7 @@ def _of_mesh(burning: FleetPieces, mesh: ObstacleMesh, least: float) -> ProvedEx
     return less(bound, mesh.spacing)
 
 
-def _told(
+def _nearest_drone(
     flight: FleetFlight, rows: Sequence[int], of: tuple[str, ProvedExtreme], value: Callable[[Array], Array]
 ) -> Near:
     """Return a bound with the drone that has it, which a function from positions to distances finds."""

@@ -49,19 +49,19 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
 
 def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
     timing, path = display.timing, (*display.path, "timing")
-    asked = [
+    timings = [
         ("error of duration", "duration", _off(timing.duration, phase.end - phase.start), phase.end),
         ("error of start", "start", _off(timing.start, phase.start), phase.start),
         ("start too early", "after", _early(timing.after, ends, phase.start), phase.start),
     ]
-    for name, key, off, time in asked:
+    for name, key, off, time in timings:
         if off is not None:
             limit = Limit(name, ON_TIME_S, "s", (*path, key), shot=display.id)
             yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
 
 
-def _off(asked: float | None, flown: float) -> float | None:
-    return None if asked is None else abs(flown - asked)
+def _off(required: float | None, flown: float) -> float | None:
+    return None if required is None else abs(flown - required)
 
 
 def _early(after: str | None, ends: dict[str, float], start: float) -> float | None:
@@ -72,10 +72,10 @@ def _pictures(
     flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[FrameTimes]
 ) -> Iterator[Claim]:
     """Yield claims that every picture is shown, in order, within the display, for its hold."""
-    name, wanted = flight.fleet.name, range(len(display.pictures))
+    name, pictures = flight.fleet.name, range(len(display.pictures))
     order = [(s.picture, s.index) for s in shown]
-    missing = len(set(wanted) - {picture for picture, _ in order})
-    astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in wanted for p, _ in order)
+    missing = len(set(pictures) - {picture for picture, _ in order})
+    astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in pictures for p, _ in order)
     times = [phase.start, *(t for s in shown for t in (s.start, s.end)), phase.end]
     astray += sum(b < a - LIMIT_TOLERANCE for a, b in pairwise(times))
     limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
@@ -84,8 +84,8 @@ def _pictures(
     yield held(name, limit, WorstValue(float(astray), None, "exact"))
     yield from _moments(flight, display, shown)
     last = {s.picture: s for s in shown}
-    short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in wanted]
-    lack, at = max(short, key=lambda found: found[0], default=(-inf, None))
+    short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in pictures]
+    lack, at = max(short, key=lambda entry: entry[0], default=(-inf, None))
     if at is not None:
         path = (*display.pictures[at.picture].path, "hold")
         limit = Limit("lack of hold", ON_TIME_S, "s", path, shot=display.id)
@@ -125,7 +125,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
     no claim if any drone moves less than ``LEAST_WAY_M``.
     """
     breaks, coef = flight.track.breaks, flight.track.coef
-    found: list[tuple[float, Limit, WorstValue]] = []
+    claims: list[tuple[float, Limit, WorstValue]] = []
     first = {s.picture: s for s in reversed(shown)}
     for k, picture in enumerate(display.pictures):
         if picture.wave is None or k not in first:
@@ -147,9 +147,9 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
         off = abs(float(np.ptp(departs)) - picture.wave.time)
         most = 2.0 * float(np.diff(breaks)[on_way].max())
         limit = Limit("error of wave", most, "s", (*picture.path, "transition", "wave"), shot=display.id)
-        found.append((off - most, limit, WorstValue(off, float(departs.max()), "exact")))
-    if found:
-        _, limit, worst = max(found, key=lambda item: item[0])
+        claims.append((off - most, limit, WorstValue(off, float(departs.max()), "exact")))
+    if claims:
+        _, limit, worst = max(claims, key=lambda item: item[0])
         yield held(flight.fleet.name, limit, worst)
 
 

@@ -77,10 +77,10 @@ class FleetFlight:
 
 
 def of_drone(
-    flight: FleetFlight, limit: Limit, found: tuple[float, float], drone: int, method: Method = "exact"
+    flight: FleetFlight, limit: Limit, extreme: tuple[float, float], drone: int, method: Method = "exact"
 ) -> Claim:
     """Return the claim of one drone's worst value and its time against a limit."""
-    value, time = found
+    value, time = extreme
     x, y, z = (float(c) for c in flight.at(time)[drone])
     worst = WorstValue(value, time, method, (x, y, z))
     return held(flight.fleet.name, limit, worst, (flight.names[drone],))

@@ -42,8 +42,8 @@ def _thrust(flight: FleetFlight) -> Iterator[Claim]:
     if limits.tilt < inf:
         yield _largest(flight, _limit(flight, "tilt", "rad"), lean(acceleration))
     if limits.thrust_to_weight < inf:
-        wanted = _limit(flight, "thrust_to_weight", "times the weight")
-        yield _largest(flight, wanted, thrust_to_weight(acceleration))
+        limit = _limit(flight, "thrust_to_weight", "times the weight")
+        yield _largest(flight, limit, thrust_to_weight(acceleration))
 
 
 def _limit(flight: FleetFlight, name: str, unit: str) -> Limit:

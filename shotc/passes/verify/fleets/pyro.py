@@ -78,11 +78,11 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
         for what, bound in _distances(ir, flights, burns, row, span):
             if what not in near or bound.proven < near[what].bound.proven:
                 near[what] = Near(what, bound, row)
-    for found in (*near.values(), *near_surfaces(flight, rows, span, cue.clear)):
-        name, key = f"{burns.name} from {found.what}", (*cue.path, "clear")
+    for approach in (*near.values(), *near_surfaces(flight, rows, span, cue.clear)):
+        name, key = f"{burns.name} from {approach.what}", (*cue.path, "clear")
         limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)
-        worst = WorstValue(found.bound.proven, found.bound.at, "bounded", found.position)
-        yield held(flight.fleet.name, limit, worst, (flight.names[found.drone],))
+        worst = WorstValue(approach.bound.proven, approach.bound.at, "bounded", approach.position)
+        yield held(flight.fleet.name, limit, worst, (flight.names[approach.drone],))
 
 
 def _distances(

@@ -40,8 +40,8 @@ def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
 
 def _faults(mission: MissionIR, track: FleetTrajectory) -> Iterator[str]:
     breaks, coef, pads = track.breaks, track.coef, mission.fleet(track.fleet).pads
-    wanted = (len(pads), len(breaks) + 2, 3)
-    if breaks.ndim != 1 or len(breaks) < 2 or coef.shape != wanted:
+    expected = (len(pads), len(breaks) + 2, 3)
+    if breaks.ndim != 1 or len(breaks) < 2 or coef.shape != expected:
         yield f"it has control points of shape {coef.shape} for {len(pads)} pads and {len(breaks)} breaks"
         return
     if not (np.isfinite(breaks).all() and np.isfinite(coef).all()) or np.abs(coef).max() > LARGEST_M:

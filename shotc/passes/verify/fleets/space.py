@@ -156,8 +156,8 @@ def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
     best = np.full(len(flown.ctrl), inf)
     for k, (low, high) in enumerate(zip(flown.low, flown.high, strict=True)):
         inside = rows[(rows > low) & (rows < high)]
-        way = places(target.track, np.concatenate([[low], inside, [high]]))
-        least, most = way.min(axis=0) - half, way.max(axis=0) + half
+        positions = places(target.track, np.concatenate([[low], inside, [high]]))
+        least, most = positions.min(axis=0) - half, positions.max(axis=0) + half
         hulls = flown.ctrl[:, k]
         away = np.maximum(np.maximum(hulls.min(axis=1) - most, least - hulls.max(axis=1)), 0.0)
         best = np.minimum(best, norm(away))
@@ -186,9 +186,9 @@ def _batches(pieces: Pieces) -> Iterator[Pieces]:
 
 def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
     path = flight.key("layout")
-    aside = Limit("drift from the vertical", DRIFT_M, "m", path)
+    limit = Limit("drift from the vertical", DRIFT_M, "m", path)
     below = Limit("depth below home", 0.0, "m", path)
-    yield worse(aside, [_drift(flight, aside, part) for part in upright])
+    yield worse(limit, [_drift(flight, limit, part) for part in upright])
     yield worse(below, [_sunk(flight, below, part) for part in upright])
 
 

@@ -31,14 +31,14 @@ def near_surface(pieces: Pieces, surface: Surface, gap: Callable[[float], float]
     some = some_distance(surface, pieces.ctrl.mean(axis=1))
     seeds = np.zeros(len(pieces), dtype=bool)
     seeds[np.argpartition(some, SEED_PIECES)[:SEED_PIECES]] = True
-    found = inf_distance(pieces.pick(seeds), surface, gap)
+    first_bound = inf_distance(pieces.pick(seeds), surface, gap)
     low, high = pieces.ctrl.min(axis=1), pieces.ctrl.max(axis=1)
     least = np.full(len(pieces), np.inf)
     for its_low, its_high in zip(surface.low[-1], surface.high[-1], strict=True):
         boxes = np.broadcast_to(its_low, low.shape), np.broadcast_to(its_high, high.shape)
         least = np.minimum(least, box_distances(low, high, *boxes))
-    rest = ~seeds & (least < found.attained)
+    rest = ~seeds & (least < first_bound.attained)
     if not rest.any():
-        return found
+        return first_bound
     other = inf_distance(pieces.pick(rest), surface, gap)
-    return min(found, other, key=lambda bound: bound.proven)
+    return min(first_bound, other, key=lambda bound: bound.proven)

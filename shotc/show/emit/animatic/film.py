@@ -153,9 +153,9 @@ def _palette(pictures: list[Image.Image]) -> Image.Image:
     chosen = pictures[:: max(1, len(pictures) // PALETTE_FRAMES)]
     pixels = np.concatenate([np.asarray(picture).reshape(-1, 3) for picture in chosen])
     bright = pixels.max(axis=1) >= BRIGHT
-    found = [_colors(pixels[~bright], SKY_COLORS), _colors(pixels[bright], 256 - SKY_COLORS)]
+    parts = [_colors(pixels[~bright], SKY_COLORS), _colors(pixels[bright], 256 - SKY_COLORS)]
     palette = Image.new("P", (1, 1))
-    palette.putpalette([level for colors in found for level in colors])
+    palette.putpalette([level for colors in parts for level in colors])
     return palette
 
 

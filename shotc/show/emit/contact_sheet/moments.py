@@ -63,15 +63,15 @@ class Board:
 
 def boards(plan: VerifiedIR) -> tuple[Board, ...]:
     """Return all displays that are shown, in the mission's order."""
-    found = []
+    boards = []
     for display in plan.trajectory.keyframes.mission.displays:
         flight = flight_of(plan, display.fleet)
         shown = [s for s in flight.shown if s.display == display.id]
         if shown:
             of, every = fleet_name(flight.fleet), plan.trajectory.fleets
             beside = tuple(f for f in every if f is not flight and fleet_name(f.fleet) == of)
-            found.append(Board(display, flight, _moments(display, flight, shown), len(shown), beside))
-    return tuple(found)
+            boards.append(Board(display, flight, _moments(display, flight, shown), len(shown), beside))
+    return tuple(boards)
 
 
 def _moments(display: Display, flight: FleetTrajectory, shown: list[FrameTimes]) -> tuple[SheetFrame, ...]:
@@ -85,15 +85,15 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[FrameTimes])
     chosen = [chosen[i] for i in _evenly(len(chosen), MOST_MOMENTS)]
     before = max((p.end for p in flight.phases if p.shot is None and p.end <= chosen[0].start), default=0.0)
     left = max((p.start for p in flight.phases if p.start < chosen[0].start), default=before)
-    moments, since = [], min(left, before)
+    moments, start = [], min(left, before)
     for one in chosen:
-        way = np.linspace(since, one.start, FRAMES_BETWEEN + 2)[1:-1] if one.start > since else ()
+        between = np.linspace(start, one.start, FRAMES_BETWEEN + 2)[1:-1] if one.start > start else ()
         many = counts[one.picture]
         part = (one.index + 1, many) if many > 1 else None
         name = picture_name(display.pictures[one.picture])
         middle = (one.start + one.end) / 2.0
-        moments.append(SheetFrame(name, middle, one.start, one.end, tuple(float(t) for t in way), part))
-        since = one.end
+        moments.append(SheetFrame(name, middle, one.start, one.end, tuple(float(t) for t in between), part))
+        start = one.end
     return tuple(moments)
 
 

@@ -86,8 +86,8 @@ def draw_stands(
     for k, anchor in enumerate(anchors(shapes)):
         thing = _square(anchor, 0.0)
         tries = ([*taken, *rooms, *rims, *inside], [*taken, *rooms, *rims], rooms)
-        found = (nearest_room(size, inner, thing, full, 0.02) for full in tries)
-        spot = next((one for one in found if one is not None), _square(anchor, NUMBER_IN))
+        spots = (nearest_room(size, inner, thing, full, 0.02) for full in tries)
+        spot = next((one for one in spots if one is not None), _square(anchor, NUMBER_IN))
         leader(canvas, spot, thing, color_of(k))
         rooms.append(spot)
     for k, spot in enumerate(rooms):
@@ -100,7 +100,7 @@ def anchors(shapes: Sequence[Array]) -> list[Array]:
     around.
     """
     edges = [_fine(shape) for shape in shapes]
-    found = []
+    anchors = []
     middle = np.concatenate(edges).mean(axis=0)
     for k, edge in enumerate(edges):
         others = [other for i, other in enumerate(edges) if i != k]
@@ -108,8 +108,8 @@ def anchors(shapes: Sequence[Array]) -> list[Array]:
         out = edge - middle
         turn = 2.0 * pi * k / len(edges)
         towards = (out @ [np.sin(turn), np.cos(turn)]) / max(float(np.linalg.norm(out, axis=1).max()), 1e-9)
-        found.append(edge[int(np.argmax(np.minimum(away, APART_IN) / APART_IN + 0.1 * towards))])
-    return found
+        anchors.append(edge[int(np.argmax(np.minimum(away, APART_IN) / APART_IN + 0.1 * towards))])
+    return anchors
 
 
 def _fine(shape: Array) -> Array:

@@ -81,14 +81,14 @@ class _Thinning:
     def add(self, colors: Colors) -> None:
         """Add the colours of the next tick, (n, 3)."""
         here = self._tick + 1
-        wanted = colors.astype(np.float32)
+        levels = colors.astype(np.float32)
         span = (here - self._since)[:, None].astype(np.float32)
-        slope = (wanted - self._from) / span
+        slope = (levels - self._from) / span
         out = ((slope < self._low) | (slope > self._high)).any(axis=1)
         if out.any():
             self._keep(np.flatnonzero(out))
             span[out] = 1.0
-            slope[out] = wanted[out] - self._from[out]
+            slope[out] = levels[out] - self._from[out]
         reach = np.float32(TOLERANCE_LEVELS) / span
         self._low = np.maximum(self._low, slope - reach)
         self._high = np.minimum(self._high, slope + reach)
@@ -118,8 +118,8 @@ def program(steps: list[int], colors: list[bytes]) -> bytes:
     """Return the program with the given colours, three bytes each, at non-decreasing steps."""
     code = bytearray()
     now, color, stands, faded = 0, colors[0], 0, False
-    for step, wanted in zip(steps, colors, strict=True):
-        if wanted == color:
+    for step, target in zip(steps, colors, strict=True):
+        if target == color:
             stands += step - now
         else:
             # A fade begins where the last order ends; a jump is a set colour.
@@ -127,8 +127,8 @@ def program(steps: list[int], colors: list[bytes]) -> bytes:
                 code += _order(SET, color, stands)
             stands, faded = 0, step > now
             if faded:
-                code += _order(FADE, wanted, step - now)
-        now, color = step, wanted
+                code += _order(FADE, target, step - now)
+        now, color = step, target
     # Players extrapolate a last fade, so a program ends with a constant colour.
     code += _order(SET, color, max(stands, 1))
     return bytes([*code, END])
@@ -139,8 +139,8 @@ def _order(what: int, color: bytes, steps: int) -> bytes:
 
 
 def _number(value: int) -> bytes:
-    found = bytearray()
+    encoded = bytearray()
     while value > 0x7F:
-        found.append(value & 0x7F | 0x80)
+        encoded.append(value & 0x7F | 0x80)
         value >>= 7
-    return bytes([*found, value])
+    return bytes([*encoded, value])

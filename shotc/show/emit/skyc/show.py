@@ -89,16 +89,16 @@ def _turned(points: Array) -> list[list[float]]:
     return list((np.round(turned, COORDINATE_DECIMALS) + 0.0).tolist())
 
 
-def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:
+def _drones(mission: MissionIR, flight: FleetTrajectory, fitted: Curves) -> Iterator[Json]:
     fleet = mission.fleet(flight.fleet)
     fired = programs_of(mission.displays, fleet)
-    takeoff = int(found.millis[0])
-    times = ((found.millis - takeoff) / 1e3).tolist()
-    third = (found.control[:, :, 3] - found.control[:, :, 0]) / 3.0
-    chord = np.stack([found.control[:, :, 0] + third, found.control[:, :, 3] - third], axis=2)
-    straight = np.linalg.norm(found.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT_M
+    takeoff = int(fitted.millis[0])
+    times = ((fitted.millis - takeoff) / 1e3).tolist()
+    third = (fitted.control[:, :, 3] - fitted.control[:, :, 0]) / 3.0
+    chord = np.stack([fitted.control[:, :, 0] + third, fitted.control[:, :, 3] - third], axis=2)
+    straight = np.linalg.norm(fitted.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT_M
     for name, control, lines, code, pyro in zip(
-        drone_names(fleet), found.control, straight.tolist(), programs(flight), fired, strict=True
+        drone_names(fleet), fitted.control, straight.tolist(), programs(flight), fired, strict=True
     ):
         turned = _turned(control)
         points = [[times[0], turned[0][0], []]]
@@ -115,7 +115,7 @@ def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Itera
                 "trajectory": {
                     "version": 1,
                     "takeoffTime": takeoff / 1e3,
-                    "landingTime": int(found.millis[-1]) / 1e3,
+                    "landingTime": int(fitted.millis[-1]) / 1e3,
                     "points": points,
                 },
                 "lights": {"version": 1, "data": b64encode(code).decode("ascii")},
@@ -178,9 +178,9 @@ def _from(largest: int, m: Array) -> tuple[float, float, float, float]:
     if largest == 0:
         return (1.0 + np.trace(m), *skew)
     i = largest - 1
-    found = m[i] + m[:, i]
-    found[i] = 1.0 + 2.0 * m[i, i] - np.trace(m)
-    return (skew[i], found[0], found[1], found[2])
+    column = m[i] + m[:, i]
+    column[i] = 1.0 + 2.0 * m[i, i] - np.trace(m)
+    return (skew[i], column[0], column[1], column[2])
 
 
 def _cues(plan: VerifiedIR) -> list[Json]:
