@@ -226,7 +226,7 @@ def _parse_text(text: str, dimension: Dimension) -> float:
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT_CHARACTERS else None
     if match is None:
         message = f"expected {a(dimension)}, got {describe(text)}"
-        raise QuantityError("not-a-quantity", message, _meant_by(text, dimension))
+        raise QuantityError("not-a-quantity", message, _likely_meaning(text, dimension))
     number, unit = float(match[1]), match[2] or ""
     scale = UNITS[dimension].get(unit)
     if scale is not None:
@@ -244,7 +244,7 @@ def _parse_text(text: str, dimension: Dimension) -> float:
     raise QuantityError("unknown-unit", f"unknown unit `{clip(unit)}`", help_)
 
 
-def _meant_by(text: str, dimension: Dimension) -> str:
+def _likely_meaning(text: str, dimension: Dimension) -> str:
     """Return the help for text that is no quantity: its most likely meaning."""
     bearing = _COMPASS.get(text.strip().lower()) if dimension == "angle" else None
     if bearing is not None:

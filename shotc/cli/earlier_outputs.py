@@ -20,7 +20,7 @@ def warn_of_earlier(folder: Path) -> None:
     )
 
 
-def tell_left_over(folder: Path, written: set[str]) -> None:
+def print_left_over(folder: Path, written: set[str]) -> None:
     """Print the names of earlier outputs that this run has not replaced: they do not belong to this plan."""
     left = left_over(folder, written)
     if left:

@@ -13,7 +13,7 @@ from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
 from shotc.cli import console
 from shotc.cli.console import Progress, known, listed
-from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
+from shotc.cli.earlier_outputs import print_left_over, warn_of_earlier
 from shotc.cli.hands import Workers
 from shotc.cli.inputs import gather, is_folder, read_mission
 from shotc.cli.plan_many import one_mission_only, plan_many
@@ -185,7 +185,7 @@ def _finish(
     console.report(diagnostics, done.sources)
     if paths:
         console.out(summary(done.plan, paths, emitted.notes))
-        tell_left_over(folder, {path.name for path in paths})
+        print_left_over(folder, {path.name for path in paths})
     else:
         warn_of_earlier(folder)
     return console.exit_code(diagnostics)

@@ -15,7 +15,7 @@ from shotc.batch.work import Job, MissionOutcome, Planned, planned
 from shotc.checking import models_of
 from shotc.cli import console, refiner
 from shotc.cli.console import Progress, table
-from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
+from shotc.cli.earlier_outputs import print_left_over, warn_of_earlier
 from shotc.cli.hands import at_work, no_cluster
 from shotc.cli.inputs import Gathered, MissionText
 from shotc.diag.model import Diagnostic
@@ -98,7 +98,7 @@ def _written(made: Planned, folder: Path) -> Planned:
     """Write the files of a mission. Return it with the errors of files that could not be written."""
     paths, faults = write(made.artifacts, folder)
     if paths:
-        tell_left_over(folder, {path.name for path in paths})
+        print_left_over(folder, {path.name for path in paths})
     outcome = made.outcome._replace(errors=made.outcome.errors + len(faults))
     return made._replace(diagnostics=(*made.diagnostics, *faults), outcome=outcome)
 

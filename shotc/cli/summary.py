@@ -13,10 +13,10 @@ from shotc.cli.exposed import exposed
 from shotc.cli.show_facts import beside, dense, display_rows, headline, layered, recorded, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
-from shotc.ir.measures import measure, told_apart
+from shotc.ir.measures import distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked, parked_fleets
-from shotc.ir.path import Deviation, from_what_was_asked
+from shotc.ir.path import Deviation, from_required_positions
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
@@ -123,7 +123,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
         )
     )
     mission, flown = plan.trajectory.keyframes.mission, plan.trajectory
-    facts += [("ideal", text) for text in _off_ideal(from_what_was_asked(mission, flown.deviations))]
+    facts += [("ideal", text) for text in _off_ideal(from_required_positions(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
@@ -374,7 +374,7 @@ def _values(claim: Claim) -> tuple[str, str, str]:
         return claim.constraint, "outside the frame", f"{measure(abs(claim.worst), 'm')} {side}"
     worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     if not claim.holds:
-        worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
+        worst, limit = distinct_measures(claim.worst, claim.limit, claim.unit)
     limit_text = f"{'<=' if claim.upper else '>='} {limit}" if isfinite(claim.limit) else "-"
     return claim.constraint, limit_text, worst if isfinite(claim.worst) else "-"
 

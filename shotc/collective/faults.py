@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.collective import Return
 from shotc.diag.model import Diagnostic
-from shotc.ir.measures import told_apart
+from shotc.ir.measures import distinct_measures
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.report import limit_label, side_of
@@ -36,7 +36,7 @@ def _cause(broken: _Broken) -> tuple[str, str] | None:
 
 def _diagnostic(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic:
     attempt, claim = max(row, key=lambda broken: abs(broken[1].worst - broken[1].limit))
-    reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    reached, limit = distinct_measures(claim.worst, claim.limit, claim.unit)
     first, last = row[0][0].time, row[-1][0].time
     when = f"at {first:g} s" if len(row) == 1 else f"at {len(row)} times from {first:g} s to {last:g} s"
     who = f" ({' and '.join(f'`{name}`' for name in claim.drones)})" if claim.drones else ""

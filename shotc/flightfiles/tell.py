@@ -14,7 +14,7 @@ from shotc.flightfiles.course import UntimedFlight
 from shotc.flightfiles.judge import FileClaim
 from shotc.flightfiles.swarm import Swarm
 from shotc.importers.flights.rows import VELOCITY
-from shotc.ir.measures import measure, told_apart
+from shotc.ir.measures import distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.promises import PROMISES, broken_promise, promise_help
@@ -61,7 +61,7 @@ def _broken(mission: MissionIR, broken: FileClaim, certificate: tuple[Claim, ...
     claim = broken.claim
     seen = claim.constraint.endswith(OUT_OF_PICTURE)
     code = SEEN if seen else rule_of(claim.constraint, mission).code
-    limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
+    limit = f"{side_of(claim)} {distinct_measures(claim.worst, claim.limit, claim.unit)[1]}"
     labels = [limit_label(mission, claim, limit)]
     if broken.where is not None:
         labels.insert(0, broken.where)

@@ -53,7 +53,7 @@ class PlaceBounds(NamedTuple):
     drawn: PreferredPose | None = None
 
 
-class Wanted(NamedTuple):
+class RequiredView(NamedTuple):
     """A subject at one time, and its required appearance; None is free.
 
     centre : W, m; shape : at that time
@@ -74,7 +74,7 @@ class Wanted(NamedTuple):
         return self.size is None or self.size <= 1.0
 
 
-class Since(NamedTuple):
+class PreviousView(NamedTuple):
     """The camera at the knot before: position, position if it moves with the subjects, largest step."""
 
     eye: Vec3
@@ -102,7 +102,7 @@ def direction(azimuth: float, elevation: float) -> Vec3:
     return (level * sin(azimuth), level * cos(azimuth), sin(elevation))
 
 
-def size_from(subject: Wanted, lens: Lens, offset: Vec3) -> float:
+def size_from(subject: RequiredView, lens: Lens, offset: Vec3) -> float:
     """Return the size of a subject at its place on screen, seen from ``offset`` from its centre, metres.
 
     It is infinite if the subject extends behind the image plane, NaN if no camera shows it at that place.
@@ -118,7 +118,7 @@ def size_from(subject: Wanted, lens: Lens, offset: Vec3) -> float:
     return float(0.5 * (high - low))
 
 
-def nearest(subject: Wanted, toward: Vec3, near: float) -> float:
+def nearest(subject: RequiredView, toward: Vec3, near: float) -> float:
     """Return the least distance along a unit vector from a subject's centre with clearance ``near``."""
     low, high = 0.0, subject.shape.radius + subject.shape.height + near + 1.0
     for _ in range(MOST_HALVINGS):
@@ -128,7 +128,7 @@ def nearest(subject: Wanted, toward: Vec3, near: float) -> float:
     return high
 
 
-def distance_for(subject: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
+def distance_for(subject: RequiredView, lens: Lens, toward: Vec3, size: float) -> float:
     """Return the distance along a unit vector from which a subject has a size; 0 if it is always smaller."""
     low, high = 1e-3, FAR_M
     for _ in range(MOST_HALVINGS + 20):
@@ -140,7 +140,7 @@ def distance_for(subject: Wanted, lens: Lens, toward: Vec3, size: float) -> floa
     return high if high > 1.01e-3 else 0.0
 
 
-def lens_for(subject: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
+def lens_for(subject: RequiredView, lens: Lens, offset: Vec3, size: float) -> float | None:
     """Return the horizontal field of view, rad, that gives a subject its size from a place, or None."""
     low, high = 0.02, 2.8
     sized = [size_from(subject, lens._replace(hfov=h), offset) for h in (low, high)]
@@ -155,7 +155,7 @@ def lens_for(subject: Wanted, lens: Lens, offset: Vec3, size: float) -> float | 
     return high
 
 
-def stand(subject: Wanted, lens: Lens, bounds: PlaceBounds, azimuth: float, size: float) -> Vec3:
+def stand(subject: RequiredView, lens: Lens, bounds: PlaceBounds, azimuth: float, size: float) -> Vec3:
     """Return the camera's offset from a subject for a bearing, rad, and a size.
 
     A free elevation is level, or as little above as the floor of ``bounds`` needs.
@@ -181,7 +181,7 @@ def stand(subject: Wanted, lens: Lens, bounds: PlaceBounds, azimuth: float, size
     return at(high)
 
 
-def judged(pose: Pose, lens: Lens, subject: Wanted) -> SubjectAppearance | None:
+def judged(pose: Pose, lens: Lens, subject: RequiredView) -> SubjectAppearance | None:
     """Return the appearance of a subject from a pose; None if it extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     offset = minus(subject.centre, (pose[0], pose[1], pose[2]))
@@ -195,20 +195,20 @@ def judged(pose: Pose, lens: Lens, subject: Wanted) -> SubjectAppearance | None:
     return SubjectAppearance(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
 
 
-def whole(pose: Pose, lens: Lens, subject: Wanted) -> bool:
+def whole(pose: Pose, lens: Lens, subject: RequiredView) -> bool:
     """Return whether all of a subject is in the frame."""
     offset = minus(subject.centre, (pose[0], pose[1], pose[2]))
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     return bool(min(frustum_margins(camera, offset, subject.shape)) >= 0.0)
 
 
-def middle_of(subjects: Sequence[Wanted]) -> Vec3:
+def middle_of(subjects: Sequence[RequiredView]) -> Vec3:
     """Return the mean of the subjects' centres."""
     x, y, z = (sum(s.centre[i] for s in subjects) / len(subjects) for i in range(3))
     return (x, y, z)
 
 
-def first_pose(subjects: Sequence[Wanted], lens: Lens, bounds: PlaceBounds, azimuth: float) -> Pose:
+def first_pose(subjects: Sequence[RequiredView], lens: Lens, bounds: PlaceBounds, azimuth: float) -> Pose:
     """Return a pose with all subjects in front of the camera, at a bearing from their middle, rad."""
     middle = middle_of(subjects)
     spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
@@ -222,7 +222,11 @@ def first_pose(subjects: Sequence[Wanted], lens: Lens, bounds: PlaceBounds, azim
 
 @lru_cache(maxsize=4096)  # several passes solve the same framing, and standing subjects repeat
 def viewpoint(
-    subjects: tuple[Wanted, ...], lens: Lens, bounds: PlaceBounds, start: Pose, previous: Since | None = None
+    subjects: tuple[RequiredView, ...],
+    lens: Lens,
+    bounds: PlaceBounds,
+    start: Pose,
+    previous: PreviousView | None = None,
 ) -> tuple[Pose, float]:
     """Return the pose of least cost, from an initial guess, and its cost.
 
@@ -240,7 +244,11 @@ def viewpoint(
 
 
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, bounds: PlaceBounds, faint: tuple[Since | None, float]
+    pose: Pose,
+    subjects: Sequence[RequiredView],
+    lens: Lens,
+    bounds: PlaceBounds,
+    faint: tuple[PreviousView | None, float],
 ) -> Residuals | None:
     """Return all residuals; None if a subject extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
@@ -277,7 +285,7 @@ def _residuals(
     return residuals
 
 
-def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted]) -> Residuals:
+def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[RequiredView]) -> Residuals:
     """Return the residuals from the preferred pose: position as shares of the distance, and angles, rad."""
     if drawn is None:
         return []
@@ -291,7 +299,7 @@ def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted
     return residuals
 
 
-def _off_view(subject: Wanted, offset: Vec3) -> Residuals:
+def _off_view(subject: RequiredView, offset: Vec3) -> Residuals:
     """Return the residuals from the required view, as chords of the unit sphere (viewpoint Eq. 9).
 
     offset : subject minus camera

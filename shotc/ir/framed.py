@@ -24,8 +24,8 @@ from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
     WHOLE_SIZE,
     Lens,
-    Since,
-    Wanted,
+    PreviousView,
+    RequiredView,
     first_pose,
     judged,
     middle_of,
@@ -33,7 +33,7 @@ from shotc.geom.viewpoint import (
     viewpoint,
     whole,
 )
-from shotc.ir.framed_scene import FramedScene, wanted_at
+from shotc.ir.framed_scene import FramedScene, required_view_at
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
@@ -127,7 +127,9 @@ class _Beside:
         self.scene, self.uv = scene, uv
         self.subject = _at_place(subject, uv)._replace(size=size)
         knots = scene.times if subject.setpoints else (start,)
-        self.wanted = tuple(wanted_at(mission, self.subject, start, t)._replace(centre=lowest) for t in knots)
+        self.wanted = tuple(
+            required_view_at(mission, self.subject, start, t)._replace(centre=lowest) for t in knots
+        )
 
     def place_at(self, t: float) -> Vec2:
         """Return the subject's place on screen at a mission time."""
@@ -158,7 +160,7 @@ def _evenly(offsets: Sequence[Vec3]) -> OffsetPoints:
     return tuple((i / (len(offsets) - 1), offset) for i, offset in enumerate(offsets))
 
 
-def _stood(scene: FramedScene, subject: Wanted, bearing: float) -> Vec3:
+def _stood(scene: FramedScene, subject: RequiredView, bearing: float) -> Vec3:
     """Return the camera's offset from a subject; bearing : the camera's where none is required, rad."""
     azimuth, size = bearing if subject.azimuth is None else subject.azimuth, subject.size or WHOLE_SIZE
     offset = stand(subject, scene.lens, scene.room, azimuth, size)
@@ -273,7 +275,7 @@ def _follow(
         later, last = middle_of(required), poses[-1]
         eye, along = (last[0], last[1], last[2]), minus(later, middle)
         largest_step = max(BRISK_SHARE * scene.drone.limits.speed * (t - before), hypot(*along))
-        previous = Since(eye, plus(eye, along), largest_step)
+        previous = PreviousView(eye, plus(eye, along), largest_step)
         pose, cost = viewpoint(required, scene.lens, bounds, (*previous.kept, last[3], last[4]), previous)
         if cost == inf:
             x, y, _ = minus(previous.kept, later)
@@ -285,7 +287,7 @@ def _follow(
 
 
 def _assigned(
-    subjects: tuple[Subject, ...], required: Sequence[Wanted], pose: Pose, lens: Lens
+    subjects: tuple[Subject, ...], required: Sequence[RequiredView], pose: Pose, lens: Lens
 ) -> tuple[Subject, ...]:
     """Assign places of the composition to the subjects without a place of their own, each place once.
 
@@ -311,7 +313,7 @@ def _assigned(
     return tuple(settled)
 
 
-def _on_screen(pose: Pose, lens: Lens, subject: Wanted) -> Vec2:
+def _on_screen(pose: Pose, lens: Lens, subject: RequiredView) -> Vec2:
     seen = [judged(pose, lens, subject._replace(uv=uv)) for uv in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
     if any(s is None for s in seen):
         return (0.0, 0.0)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import atan2, ceil, hypot
 
 from shotc.geom.vec import Vec3, plus
-from shotc.geom.viewpoint import Lens, PlaceBounds, PreferredPose, Wanted
+from shotc.geom.viewpoint import Lens, PlaceBounds, PreferredPose, RequiredView
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
 from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
@@ -20,11 +20,13 @@ BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged
 LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
 
-def wanted_at(mission: MissionIR, subject: Subject, start: float, t: float) -> Wanted:
+def required_view_at(mission: MissionIR, subject: Subject, start: float, t: float) -> RequiredView:
     """Return a subject with its required appearance at mission time t; start : time of the first frame."""
     target, appearance = mission.target(subject.target), subject.asked(t - start)
     azimuth, elevation = appearance.view or (None, None)
-    return Wanted(target.at(t), target.shape_at(t), appearance.place, appearance.size, azimuth, elevation)
+    return RequiredView(
+        target.at(t), target.shape_at(t), appearance.place, appearance.size, azimuth, elevation
+    )
 
 
 def lens_of(drone: Drone) -> Lens:
@@ -81,9 +83,9 @@ class FramedScene:
         """Return the offset at a mission time, interpolated in the offsets over the shot."""
         return offset_at(points, (t - self.start) / max(self.times[-1] - self.start, 1e-9))
 
-    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
+    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[RequiredView, ...]:
         """Return all subjects with their required appearance at a mission time."""
-        return tuple(wanted_at(self.mission, s, self.start, t) for s in subjects)
+        return tuple(required_view_at(self.mission, s, self.start, t) for s in subjects)
 
     def comes_from(self, subject: Vec3) -> float:
         """Return the bearing from a subject to the drone's position before the shot, rad."""

@@ -56,7 +56,7 @@ class NamedParts(NamedTuple):
 def surfaces_before(mission: MissionIR, target: str) -> tuple[tuple[str, Surface], ...]:
     """Return the surfaces that may hide a target, each with its sort and name; target : its name."""
     own = _bodies(mission, target)
-    surfaces = [(_called(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
+    surfaces = [(_label(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
     if mission.terrain is not None:
         surfaces.insert(0, (f"terrain {mission.terrain.file}", mission.terrain.ground.surface))
     return tuple(surfaces)
@@ -67,10 +67,10 @@ def parts_before(mission: MissionIR, target: str) -> dict[str, NamedParts]:
     ``surfaces_before``.
     """
     own = _bodies(mission, target)
-    return {_called(mesh): _without(mesh, own) for mesh in mission.meshes if len(mesh.names) > 1}
+    return {_label(mesh): _without(mesh, own) for mesh in mission.meshes if len(mesh.names) > 1}
 
 
-def _called(mesh: ObstacleMesh) -> str:
+def _label(mesh: ObstacleMesh) -> str:
     return f"{mesh.kind} {mesh.file}"
 
 

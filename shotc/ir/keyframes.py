@@ -5,7 +5,7 @@ from typing import NamedTuple
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
+from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, required_at
 
 
 class PlacedKeyframe(NamedTuple):
@@ -54,7 +54,7 @@ class PlacedSubject(NamedTuple):
 
     def asked(self, time: float) -> Asked:
         """Return its required appearance at a time of its shot, seconds from the first frame."""
-        return asked_at(Asked(self.reference, self.size, self.view), self.setpoints, time)
+        return required_at(Asked(self.reference, self.size, self.view), self.setpoints, time)
 
 
 class PlacedShot(NamedTuple):

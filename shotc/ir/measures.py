@@ -27,7 +27,7 @@ def measure(value: float, unit: str, digits: int = USUAL_DIGITS) -> str:
     return f"{0.0 if abs(number) < 1e-9 else number:.{digits}g} {sign}".strip()
 
 
-def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
+def distinct_measures(first: float, second: float, unit: str) -> tuple[str, str]:
     """Return two values as text by ``measure``, with enough digits to differ."""
     for digits in range(USUAL_DIGITS, MOST_DIGITS):
         shown = measure(first, unit, digits), measure(second, unit, digits)

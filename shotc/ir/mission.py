@@ -16,7 +16,7 @@ from shotc.ir.photos import Photos
 from shotc.ir.promise import Promise
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
-from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
+from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, required_at
 from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
@@ -198,7 +198,7 @@ class Subject(NamedTuple):
         """Return its required appearance at a time of its shot, seconds from the first frame."""
         points = self.composition.points
         first = Asked(points[0] if len(points) == 1 else None, self.size, self.view)
-        return asked_at(first, self.setpoints, time)
+        return required_at(first, self.setpoints, time)
 
 
 class Shot(NamedTuple):

@@ -82,10 +82,10 @@ def owner_of(mission: MissionIR, text: str) -> Owner | None:
         *map(drone_owner, mission.drones),
         *map(mesh_owner, mission.meshes),
     )
-    return next((owner for owner in known if str(owner) == text), None) or _part_called(mission, text)
+    return next((owner for owner in known if str(owner) == text), None) or _part_named(mission, text)
 
 
-def _part_called(mission: MissionIR, text: str) -> Owner | None:
+def _part_named(mission: MissionIR, text: str) -> Owner | None:
     """Return the owner of the part of a scene or of buildings with that text; None if there is none."""
     for mesh in mission.meshes:
         parts = (mesh_owner(mesh)._replace(name=name) for name in mesh.names)

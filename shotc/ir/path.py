@@ -200,7 +200,7 @@ SIGHT = "what would hide the subject"
 """Causes that are neither an obstacle nor another drone's picture."""
 
 
-def from_what_was_asked(mission: MissionIR, deviations: Iterable[_Deviation]) -> tuple[_Deviation, ...]:
+def from_required_positions(mission: MissionIR, deviations: Iterable[_Deviation]) -> tuple[_Deviation, ...]:
     """Return the deviations from positions that the mission requires.
 
     Between the keyframes of a shot on its own clock it requires none, so only obstacles count there.

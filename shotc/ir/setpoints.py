@@ -39,7 +39,7 @@ class Asked(NamedTuple):
     view: ViewAngles | None
 
 
-def asked_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
+def required_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
     """Return the required appearance at a time of its shot, seconds; first : that at the first frame."""
     if not setpoints:
         return first
@@ -55,13 +55,13 @@ def asked_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
     return Asked(place, size, (azimuth, elevation))
 
 
-def places_asked(first: Vec2, setpoints: Sequence[Setpoint]) -> list[tuple[float, Vec2]]:
+def required_places(first: Vec2, setpoints: Sequence[Setpoint]) -> list[tuple[float, Vec2]]:
     """Return the times, from 0 on, at which a subject has a required place on screen, and these places."""
     return _changes(first, setpoints, lambda setpoint: setpoint.place)
 
 
 def _place_at(first: Vec2, setpoints: Sequence[Setpoint], time: float) -> Vec2:
-    known = places_asked(first, setpoints)
+    known = required_places(first, setpoints)
     u, v = (_eased([(t, place[k]) for t, place in known], time) for k in range(2))
     return (u, v)
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from shotc.diag.model import Diagnostic
 from shotc.geom.focal import focal_length
 from shotc.geom.vec import Vec3, minus
-from shotc.geom.viewpoint import Lens, Wanted, lens_for, size_from
+from shotc.geom.viewpoint import Lens, RequiredView, lens_for, size_from
 from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, line
@@ -67,7 +67,7 @@ def _lenses(
     """Return the fields of view at the keyframes, rad, or the fault if the lens does not have them."""
     drone, places = scene.drone, scene.composition.points
     first = Lens(shot.hfov or drone.hfov, drone.aspect, drone.gimbal.pitch)
-    subject = Wanted(target.centre, target.shape, places[0] if len(places) == 1 else None)
+    subject = RequiredView(target.centre, target.shape, places[0] if len(places) == 1 else None)
     offsets = [minus(eye, target.centre) for eye in eyes]
     size = size_from(subject, first, offsets[0])
     if not isfinite(size):

@@ -16,7 +16,7 @@ from shotc.solvers.spline_problem import Cones, HalfSpaceRows, SplineProblem
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Around:
+class LinearisedCorridor:
     """The linearisation of a corridor.
 
     breaks : shape (P + 1,)
@@ -32,7 +32,7 @@ class Around:
     share: float
 
 
-def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
+def with_corridor(base: SplineProblem, around: LinearisedCorridor) -> SplineProblem:
     """Return the problem with the corridor's constraints; owners are indices of ``space.owners``."""
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
@@ -57,7 +57,7 @@ def points_of(breaks: Array, pieces: IntArray) -> SplineFunctionals:
     return SplineFunctionals(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
 
-def _wall_rows(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:
+def _wall_rows(around: LinearisedCorridor, index: dict[Owner, int]) -> list[HalfSpaceRows]:
     half_spaces = []
     for wall in around.space.walls:
         n = np.array(wall.normal)
@@ -72,7 +72,7 @@ def _wall_rows(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:
     return half_spaces
 
 
-def _disc_cones(around: Around, index: dict[Owner, int]) -> tuple[Cones, ...]:
+def _disc_cones(around: LinearisedCorridor, index: dict[Owner, int]) -> tuple[Cones, ...]:
     cones = []
     for disc in around.space.discs:
         centre = np.array(disc.centre)

@@ -204,14 +204,14 @@ def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: fl
 
 
 def _aim(
-    film: PlanSamples, k: int, angles: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
+    film: PlanSamples, k: int, references: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
 ) -> Array:
     """Return yaw, pitch and their rates, (R, 4), that keep a target at its reference on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
     # After its last frame a target has no place on screen.
-    soon = min(k + STEPS_PER_RECORD, len(angles) - 1)
-    n, next_ = len(offset), soon if np.isfinite(angles[soon, 0]) else k
-    now, later = (Shown(np.tile(angles[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
+    soon = min(k + STEPS_PER_RECORD, len(references) - 1)
+    n, next_ = len(offset), soon if np.isfinite(references[soon, 0]) else k
+    now, later = (Shown(np.tile(references[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
     rates = aim_rates(offset, velocity, now, later, STEPS_PER_RECORD * STEP_S)
     return np.column_stack([*aimed(offset, *now), *rates])
 

@@ -159,7 +159,7 @@ def _silent(ready: Ready, silent: Sequence[str]) -> Diagnostic:
         "A006",
         f"the vehicle of `{ready.drone.name}` does not tell what has to be known before a flight",
         (ready.label(),),
-        (f"no answer within {READ_S:.0f} s: {', '.join(silent)}", *_said(ready.vehicle)),
+        (f"no answer within {READ_S:.0f} s: {', '.join(silent)}", *_status_texts(ready.vehicle)),
         f"{fix}, then run this again",
     )
 
@@ -181,7 +181,7 @@ def _state(ready: Ready) -> Iterator[Diagnostic]:
             "A005",
             f"the vehicle of `{name}` is not ready: it is {state}",
             (ready.label(),),
-            _said(vehicle),
+            _status_texts(vehicle),
             "wait until it stands by, or mend what it complains of",
         )
 
@@ -335,7 +335,7 @@ def _speeds(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
             )
 
 
-def _said(vehicle: VehicleStatus) -> tuple[str, ...]:
+def _status_texts(vehicle: VehicleStatus) -> tuple[str, ...]:
     return tuple(f"it says: {text}" for text in vehicle.texts)
 
 

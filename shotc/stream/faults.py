@@ -23,7 +23,7 @@ def refused(vehicle: VehicleStatus, what: str, result: int) -> Diagnostic:
     return Diagnostic(
         "A020",
         f"the vehicle of `{vehicle.drone}` refuses {what}",
-        notes=(f"it answers: {RESULTS.get(result, f'MAV_RESULT {result}')}", *_said(vehicle)),
+        notes=(f"it answers: {RESULTS.get(result, f'MAV_RESULT {result}')}", *_status_texts(vehicle)),
         help="mend what keeps it from that: a ground station shows its checks before arming",
     )
 
@@ -33,7 +33,7 @@ def late(vehicle: VehicleStatus, what: str) -> Diagnostic:
     return Diagnostic(
         "A021",
         f"the vehicle of `{vehicle.drone}` is not ready when the plan has it lift off",
-        notes=(f"it was asked {what} and has not done it", *_said(vehicle)),
+        notes=(f"it was asked {what} and has not done it", *_status_texts(vehicle)),
         help="check its radio link and its checks before arming, then run this again",
     )
 
@@ -56,7 +56,7 @@ def mode_left(vehicle: VehicleStatus) -> Diagnostic:
     return Diagnostic(
         "A023",
         f"the vehicle of `{vehicle.drone}` has left the mode {mode}",
-        notes=("its pilot or a failsafe took it over; it is sent nothing more", *_said(vehicle)),
+        notes=("its pilot or a failsafe took it over; it is sent nothing more", *_status_texts(vehicle)),
         help="land it, and run this again from the pads",
     )
 
@@ -117,10 +117,10 @@ def not_holding(vehicle: VehicleStatus, seconds: float) -> Diagnostic:
     return Diagnostic(
         "A029",
         f"the vehicle of `{vehicle.drone}` does not confirm that it holds",
-        notes=(f"{mode} was asked for over {seconds:.0f} s", *_said(vehicle)),
+        notes=(f"{mode} was asked for over {seconds:.0f} s", *_status_texts(vehicle)),
         help=TAKE_OVER,
     )
 
 
-def _said(vehicle: VehicleStatus) -> tuple[str, ...]:
+def _status_texts(vehicle: VehicleStatus) -> tuple[str, ...]:
     return tuple(f"it says: {text}" for text in vehicle.texts)

@@ -66,12 +66,14 @@ def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array
         yield (x, y, z), body
 
 
-def asked_at_first(subject: ShotContext, nodes: Stages, references: References) -> References:
+def first_margins(subject: ShotContext, nodes: Stages, references: References) -> References:
     """Return the references with the margins to the edges for the first solve."""
     return replace(references, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
 
 
-def asked_again(subject: ShotContext, nodes: Stages, references: References, camera: Piecewise) -> References:
+def next_margins(
+    subject: ShotContext, nodes: Stages, references: References, camera: Piecewise
+) -> References:
     """Return the references with the margins to the edges for the next solve.
 
     This is the method of multipliers (Hestenes 1969, Powell 1969) for the hinge: if the target is too near to

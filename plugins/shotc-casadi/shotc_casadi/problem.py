@@ -10,7 +10,7 @@ from scipy.interpolate import make_interp_spline
 
 from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import AimCondition
-from shotc_casadi.due import due
+from shotc_casadi.place_times import place_times
 from shotc_casadi.lens import is_free, lens_guess, lens_parameters, lens_state_bounds
 from shotc_casadi.margins import Margins
 from shotc_casadi.program import Problem
@@ -106,7 +106,7 @@ def _beside(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Ar
 
 
 def _pace(subject: ShotContext, margins: Margins) -> float:
-    return margins.limits * (1.0 if due(subject.leg) else subject.leg.pace)
+    return margins.limits * (1.0 if place_times(subject.leg) else subject.leg.pace)
 
 
 def _guess(
@@ -218,7 +218,7 @@ def _pinned(
     half = fields_of_view(subject, s)[1]
     pins = [int(k) for k in stages.pins]
     rests = [stop.s for stop in leg.stops]
-    times = dict(zip(*due(leg), strict=True))
+    times = dict(zip(*place_times(leg), strict=True))
     shares = _shares(subject)
     for k in pins:
         weight[k, POSITION] = PIN_WEIGHT / distance[k] ** 2

@@ -12,7 +12,7 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.conditions import AimCondition
 from shotc_casadi.covered import lost_on_path
-from shotc_casadi.due import due
+from shotc_casadi.place_times import place_times
 from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
 from shotc_casadi.references import ShotContext
@@ -34,14 +34,14 @@ def checked(subject: ShotContext, condition: AimCondition, camera: Piecewise) ->
 def hopeless(subject: ShotContext) -> bool:
     """Return whether a shot's convex path is far too slow for the times asked for."""
     leg = subject.leg
-    return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
+    return place_times(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
 
 
 def _late(subject: ShotContext, camera: Piecewise) -> float:
     """Return by which share the fastest flight of this camera misses a time asked for."""
     drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
     leg = with_camera(drone, subject.leg, camera, ahead)
-    deadlines = due(leg)
+    deadlines = place_times(leg)
     if not deadlines or deadlines.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
         return 0.0
     return lateness(drone, leg)

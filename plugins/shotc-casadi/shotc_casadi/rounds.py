@@ -13,9 +13,9 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import AimCondition
-from shotc_casadi.due import due, unhurried
+from shotc_casadi.place_times import place_times, unhurried
 from shotc_casadi.edges import level_beside
-from shotc_casadi.frames import asked_again, asked_at_first
+from shotc_casadi.frames import first_margins, next_margins
 from shotc_casadi.horizon import Solver
 from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.problem import problem
@@ -74,7 +74,7 @@ def refine_shot(subject: ShotContext, condition: AimCondition, count: int | None
 
     count : number of stages, or None for as many as its keyframes need
     """
-    if not due(subject.leg):
+    if not place_times(subject.leg):
         return _refine(subject, condition, count, SOLVERS)[0]
     if not hopeless(subject):
         refined, check = _refine(subject, condition, count, SOLVERS[:1])
@@ -90,7 +90,7 @@ def _refine(
     leg = subject.leg
     assert leg.shot is not None
     nodes = stages(leg, subject.placed, subject.drone, count)
-    references = asked_at_first(subject, nodes, references_at(subject, condition, nodes.s))
+    references = first_margins(subject, nodes, references_at(subject, condition, nodes.s))
     margins = Margins()
     walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, references, walls, margins)
@@ -107,7 +107,7 @@ def _refine(
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER_ROUNDS)
         walls = _walls(subject, nodes, margins)
         if tried.check.cropped > 0:
-            references = asked_again(subject, nodes, references, tried.camera)
+            references = next_margins(subject, nodes, references, tried.camera)
         tightened = problem(subject, condition, nodes, references, walls, margins)
         following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
     return _result(subject, nodes, done, best), best.check

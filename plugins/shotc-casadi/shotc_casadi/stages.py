@@ -9,7 +9,7 @@ from scipy.interpolate import PchipInterpolator
 
 from shotc.plugin_api import MovingLeg
 from shotc.plugin_api.refiner import Array, Drone, PlacedShot, rough_times
-from shotc_casadi.due import due
+from shotc_casadi.place_times import place_times
 
 USUAL_STAGES = 100
 STAGES_PER_INTERVAL = 12
@@ -40,7 +40,7 @@ def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) 
     assert curve is not None
     pins = _pins(leg, placed)
     count = count or int(np.clip(STAGES_PER_INTERVAL * (len(pins) - 1), USUAL_STAGES, MOST_STAGES))
-    deadlines = due(leg)
+    deadlines = place_times(leg)
     fine, t = rough_times(drone, leg, 1.0 if deadlines else leg.pace)
     if deadlines:
         t = deadlines.kept(fine, t, leg.pace)

@@ -12,11 +12,11 @@ from shotc_casadi.conditions import OURS
 from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import (
     LEAST_HALF_FRAMES,
-    asked_again,
-    asked_at_first,
     between_nodes,
     cropped,
+    first_margins,
     insides,
+    next_margins,
 )
 from shotc_casadi.margins import Margins
 from shotc_casadi.problem import problem
@@ -105,12 +105,12 @@ def test_how_far_inside_counts_half_frames_from_every_edge():
 
 def test_nodes_ask_for_as_much_more_as_was_cropped_beside_them():
     of, nodes = arc(), nodes_of(arc())
-    first = asked_at_first(of, nodes, references_at(of, OURS, nodes.s))
-    assert asked_again(of, nodes, first, turned(of, 0.0)).inside == pytest.approx(first.inside)
+    first = first_margins(of, nodes, references_at(of, OURS, nodes.s))
+    assert next_margins(of, nodes, first, turned(of, 0.0)).inside == pytest.approx(first.inside)
     out = turned(of, 0.55)
     lack = cropped(of, out)
     assert lack > 0.01
-    again = asked_again(of, nodes, first, out)
+    again = next_margins(of, nodes, first, out)
     more = again.inside - first.inside
     assert more.max() == pytest.approx(
         min(lack + LEAST_HALF_FRAMES, frames.MOST_HALF_FRAMES - first.inside.max()), rel=1e-6
@@ -170,7 +170,7 @@ def test_beside_a_keyframe_at_the_edge_nodes_ask_for_what_backing_off_can_give()
     tall = tower._replace(shape=tower.shape._replace(height=1e3))
     near = of._replace(mission=of.mission._replace(targets=(tall,)))
     nodes = nodes_of(near)
-    asked = asked_at_first(near, nodes, references_at(near, OURS, nodes.s)).inside
+    asked = first_margins(near, nodes, references_at(near, OURS, nodes.s)).inside
     own = insides(near, references_at(near, OURS, nodes.s), nodes.s, turned(near, 0.0)(nodes.s))
     pins = nodes.pins
     assert asked[pins] == pytest.approx(np.minimum(own[pins], frames.INSIDE_HALF_FRAMES))

@@ -9,7 +9,7 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 from shotc_casadi.replan.chase import ShotChase
-from shotc_casadi.replan.steps import Until
+from shotc_casadi.replan.steps import StopRule
 
 from shotc.geom.solids import Cylinder, box
 from shotc.plugin_api.replanner import ChaseWeights, Cone, Plan, Traffic
@@ -33,7 +33,7 @@ HORIZONS = (5, 20, 40, 80)
 
 
 def converged(*args, **given) -> ShotChase:
-    return ShotChase(problem(*args, **given), Until(60, 1e-7))
+    return ShotChase(problem(*args, **given), StopRule(60, 1e-7))
 
 
 def test_without_camera_and_zones_it_is_the_least_squares_optimum():

@@ -13,7 +13,7 @@ from shotc_casadi.replan import framing
 from shotc_casadi.replan.evaluation import Evaluation, StageExpressions
 from shotc_casadi.replan.framing import Framing
 from shotc_casadi.replan.pictures import Symbols, clear, in_field, uncovered
-from shotc_casadi.replan.steps import Until
+from shotc_casadi.replan.steps import StopRule
 
 from shotc.geom.camera import view
 from shotc.plugin_api.replanner import Appearance, DrawnPose, FilmedSubject, FramingWeights
@@ -38,7 +38,7 @@ from tests.support.replans import DT, beside
 
 N = 25
 STILL = np.zeros(3)
-CONVERGED = Until(60, 1e-7)
+CONVERGED = StopRule(60, 1e-7)
 
 
 def alone(wanted: Appearance, **given):
@@ -102,7 +102,7 @@ def test_a_flight_frames_its_subjects_and_comes_near_none(count):
 @pytest.mark.parametrize("count", [1, 2])
 def test_one_step_a_replan_costs_hardly_more_than_converged_ones(count):
     people = Swaying(count, 1, 12.0)
-    fine = film(Framing(problem(N), Until(30, 1e-3)), N, people, 120)
+    fine = film(Framing(problem(N), StopRule(30, 1e-3)), N, people, 120)
     assert flown(count).cost.mean() < 1.2 * fine.cost.mean()
     assert flown(count).off.mean() < 1.1 * fine.off.mean()
 

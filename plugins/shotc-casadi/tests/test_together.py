@@ -105,7 +105,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
     term = ca.Function("term", [one, eye, aim, lens], [picture.residuals(one, eye, (aim[0], aim[1]), lens)])
     half = tan(of.drone.hfov / 2)
     references = [
-        viewpoint.Wanted(
+        viewpoint.RequiredView(
             tuple(centre), CylinderShape(0.4, 1.8), s.reference, s.size, *(s.view or (None, None))
         )
         for centre, s in zip(centres[0], framed, strict=True)
@@ -135,7 +135,7 @@ def test_a_subject_behind_the_camera_has_a_finite_cost_that_falls_as_the_camera_
 def test_two_who_stand_beside_the_axis_are_filmed_from_the_place_on_it() -> None:
     drone = subject(CORNER).drone
     away = 2.0 / (0.3 * tan(drone.hfov / 2))
-    known = viewpoint.Wanted((2.0, 0.0, 4.0), CylinderShape(0.4, 1.8))
+    known = viewpoint.RequiredView((2.0, 0.0, 4.0), CylinderShape(0.4, 1.8))
     seen = viewpoint.judged((0.0, -away, 4.0, 0.5 * pi, 0.0), lens_of(drone), known)
     assert seen is not None
     text = STILL.replace("SIZE", f"{seen.size:.6f}")

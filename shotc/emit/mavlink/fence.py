@@ -46,7 +46,7 @@ class FenceCircle:
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class OmittedZone:
     """A zone that is left out of the fence, and the reason."""
 
     zone: Zone
@@ -59,7 +59,7 @@ class Fence:
 
     polygons: tuple[FencePolygon, ...]
     circles: tuple[FenceCircle, ...]
-    left_out: tuple[Left, ...]
+    left_out: tuple[OmittedZone, ...]
 
 
 def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool) -> Fence:
@@ -71,7 +71,7 @@ def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool)
     """
     polygons: list[FencePolygon] = []
     circles: list[FenceCircle] = []
-    left: list[Left] = []
+    left: list[OmittedZone] = []
     misfits = [_misfit(zone, track[:, :2]) for zone in mission.zones]
     inside = [z for z, misfit in zip(mission.zones, misfits, strict=True) if z.keep == "in" and not misfit]
     smallest = min(inside, key=_area, default=None)
@@ -80,7 +80,7 @@ def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool)
         if not reason and one_inclusion and zone.keep == "in" and zone is not smallest:
             reason = "the autopilot asks for any one keep-in area, and a smaller one is written"
         if reason:
-            left.append(Left(zone, reason))
+            left.append(OmittedZone(zone, reason))
         elif isinstance(zone.solid, Cylinder):
             circles.append(_circle(zone, zone.solid, geo))
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees
 
 from shotc.diag.model import Diagnostic
-from shotc.emit.mavlink.fence import Left
+from shotc.emit.mavlink.fence import OmittedZone
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import WaypointStep
 from shotc.emit.waypoints.compare import Error
@@ -19,7 +19,7 @@ from shotc.rounding import at_least
 LEAST_CUT_M = 0.05  # metres of missing clearance, below which there is no warning
 
 
-def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
+def left_out(mission: MissionIR, drone: Drone, left: OmittedZone) -> Diagnostic:
     """Return the warning that the geofence leaves out a zone."""
     return Diagnostic(
         "E102",

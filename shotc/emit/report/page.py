@@ -16,7 +16,7 @@ from shotc.emit.report.style import STYLE
 from shotc.emit.site.volumes import OFF_ACROSS_M, OFF_UPRIGHT_M, REACTION_S, Volumes, volumes
 from shotc.emit.waypoints.link import link_notes, return_height
 from shotc.geom.earth import of_world
-from shotc.ir.measures import measure, told_apart
+from shotc.ir.measures import distinct_measures, measure
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.trajectory import Claim, VerifiedIR
 
@@ -192,7 +192,7 @@ def _requirements(certificate: Sequence[Claim]) -> str:
 def _claim(claim: Claim) -> Row:
     worst, limit = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     if not claim.holds:
-        worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
+        worst, limit = distinct_measures(claim.worst, claim.limit, claim.unit)
     limit_text = f"{'≤' if claim.upper else '≥'} {limit}" if isfinite(claim.limit) else "no limit"
     state = (
         ("holds" if isfinite(claim.limit) else "") if claim.holds else "BROKEN" if claim.hard else "missed"

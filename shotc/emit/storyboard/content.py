@@ -17,7 +17,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import from_what_was_asked
+from shotc.ir.path import from_required_positions
 from shotc.ir.phases import KeyframeTime
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
@@ -121,7 +121,7 @@ def _board(
     times = [k for k in flight.keyframes if k.shot == shot.id]
     by_hand = all(keyframe.placed for keyframe in placed.keyframes)
     flown = plan.trajectory
-    generated = from_what_was_asked(flown.keyframes.mission, flown.deviations)
+    generated = from_required_positions(flown.keyframes.mission, flown.deviations)
     deviations = [d for d in generated if d.shot == shot.id]
     worst = max(deviations, key=lambda d: d.distance, default=None)
     return ShotBoard(

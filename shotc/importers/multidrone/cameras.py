@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import Place, written
 from shotc.importers.multidrone.read import Role
-from shotc.importers.multidrone.task import NEAREST_M, Made, RoleTask, Said
+from shotc.importers.multidrone.task import NEAREST_M, ImportedShot, RoleTask, Said
 
 BESIDE_M = 8.0  # metres to the East of its target, for a camera that would stand at the target's place
 LEAST_RISE_M = 0.1  # least travel of an elevator, metres
@@ -17,7 +17,7 @@ MOST_PAN_DEG = 720.0  # degrees
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
-def elevator(task: RoleTask) -> Made:
+def elevator(task: RoleTask) -> ImportedShot:
     """Return a camera that moves up or down at its place and films its target."""
     low, one = task.altitude("z_s")
     high, two = task.altitude("z_e")
@@ -25,13 +25,13 @@ def elevator(task: RoleTask) -> Made:
     if abs(high - low) < LEAST_RISE_M:
         kept = task.assume("an elevator that neither rises nor sinks", "a still camera")
         params = f"at: {lower}, look_at: {task.target}"
-        return Made("static", params, ((*place, low),) * 3, (*one, *two, *said, kept))
+        return ImportedShot("static", params, ((*place, low),) * 3, (*one, *two, *said, kept))
     points = f"points: [{lower}, {upper}], look_at: {task.target}"
     path = ((*place, low), (*place, (low + high) / 2), (*place, high))
-    return Made("follow-path", points, path, (*one, *two, *said))
+    return ImportedShot("follow-path", points, path, (*one, *two, *said))
 
 
-def static(task: RoleTask) -> Made:
+def static(task: RoleTask) -> ImportedShot:
     """Return a camera that stands and films its target, or pans and tilts by the file's angles."""
     z, low = task.altitude()
     place, (at,), said = _stand(task, z)
@@ -40,14 +40,14 @@ def static(task: RoleTask) -> Made:
         if not task.target:
             heading = degrees(pi / 2 - task.course.heading(task.start)) % 360
             params = f"at: {at}, heading: {heading:.1f} deg, pitch: 0 deg"
-            return Made("static", params, path, (*low, *said), watches=False)
-        return Made("static", f"at: {at}, look_at: {task.target}", path, (*low, *said))
+            return ImportedShot("static", params, path, (*low, *said), watches=False)
+        return ImportedShot("static", f"at: {at}, look_at: {task.target}", path, (*low, *said))
     poses = [(at, task.course.heading(task.start))] * 2
     rows, more = _panned(task, poses)
-    return Made("keyframes", rows, path, (*low, *said, *more), watches=False)
+    return ImportedShot("keyframes", rows, path, (*low, *said, *more), watches=False)
 
 
-def fly_through(task: RoleTask) -> Made:
+def fly_through(task: RoleTask) -> ImportedShot:
     """Return a camera that flies along the trajectory, and pans by the file's angles or looks ahead."""
     z, low = task.altitude()
     points, frame = task.action.points, task.frame
@@ -60,11 +60,11 @@ def fly_through(task: RoleTask) -> Made:
     path = ((*places[0], z), (*places[len(places) // 2], z), (*places[-1], z))
     if _turned(task.role):
         rows, said = _panned(task, [(frame.written(p, z), _course(places, i)) for i, p in enumerate(points)])
-        return Made("keyframes", rows, path, (*low, *said), watches=False)
+        return ImportedShot("keyframes", rows, path, (*low, *said), watches=False)
     joined = ", ".join(frame.written(p, z) for p in points)
     ahead = task.assume("a fly-through without pan and tilt", "the camera looks along the way, level")
     params = f"points: [{joined}], heading: along"
-    return Made("follow-path", params, path, (*low, ahead), watches=False)
+    return ImportedShot("follow-path", params, path, (*low, ahead), watches=False)
 
 
 def _turned(role: Role) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from math import cos, degrees, pi, radians, sin
 
 from shotc.importers.multidrone.cameras import elevator, fly_through, static
-from shotc.importers.multidrone.task import NEAREST_M, Made, RoleTask, Said
+from shotc.importers.multidrone.task import NEAREST_M, ImportedShot, RoleTask, Said
 from shotc.importers.notes import plain
 
 LARGEST_TURN_RAD = 19 * pi  # rad, largest turn of an orbit
@@ -20,7 +20,7 @@ LEAST_TURN_RAD = radians(5.0)
 FOLLOWING = frozenset(("CHASE", "LEAD", "LATERAL", "FLYBY", "FLY_BY", "FLYOVER"))
 
 
-def shot_of(task: RoleTask) -> Made:
+def shot_of(task: RoleTask) -> ImportedShot:
     """Return one role as a shot. An unknown kind becomes a static camera, with a note."""
     kind = task.role.kind.replace(" ", "_")
     make = KINDS.get(kind)
@@ -37,7 +37,7 @@ def shot_of(task: RoleTask) -> Made:
     return make(task)
 
 
-def _chase(task: RoleTask) -> Made:
+def _chase(task: RoleTask) -> ImportedShot:
     usual = 8.0 if task.role.kind == "LEAD" else -8.0
     start, said = task.param("x_s", usual)
     z, low = task.altitude()
@@ -48,30 +48,30 @@ def _chase(task: RoleTask) -> Made:
     away, near = _apart(task, abs(start))
     spot = (away if start >= 0 else -away, 0.0, z)
     params = f"distance: {away:g}, altitude: {z:g}"
-    return Made(kind, params, task.along(spot, spot), (*said, *low, *near), not said)
+    return ImportedShot(kind, params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
-def _lateral(task: RoleTask) -> Made:
+def _lateral(task: RoleTask) -> ImportedShot:
     y, said = task.param("y_0", 8.0)
     z, low = task.altitude()
     away, near = _apart(task, abs(y))
     side = "left" if y >= 0 else "right"
     params = f"side: {side}, distance: {away:g}, altitude: {z:g}"
     spot = (0.0, away if y >= 0 else -away, z)
-    return Made("lateral", params, task.along(spot, spot), (*said, *low, *near), not said)
+    return ImportedShot("lateral", params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
-def _flyby(task: RoleTask, beside: float | None = None) -> Made:
+def _flyby(task: RoleTask, beside: float | None = None) -> ImportedShot:
     start, one = task.param("x_s", -10.0)
     end, two = task.param("x_e", 10.0)
     y, three = task.param("y_0", 0.0) if beside is None else (beside, ())
     z, low = task.altitude()
     params = f"behind: {-start:g}, ahead: {end:g}, offset: {y:g}, altitude: {z:g}".replace(": -0,", ": 0,")
     path = task.along((start, y, z), (end, y, z))
-    return Made("flyby", params, path, (*one, *two, *three, *low), not one)
+    return ImportedShot("flyby", params, path, (*one, *two, *three, *low), not one)
 
 
-def _orbit(task: RoleTask) -> Made:
+def _orbit(task: RoleTask) -> ImportedShot:
     r, one = task.param("r_0", 8.0)
     turn, two = task.param("azimuth_speed", 0.1)
     begin, three = task.param("azimuth_s", 0.0)
@@ -106,10 +106,12 @@ def _orbit(task: RoleTask) -> Made:
     )
     params = f"radius: {away:g}, altitude: {z:g}, {turned}"
     said = "the side on which a target leaves room changes in an orbit: it is that of the middle of the shot"
-    return Made("orbit", params, (first, halfway, ends), (*one, *two, *three, *low, *near, said), not one)
+    return ImportedShot(
+        "orbit", params, (first, halfway, ends), (*one, *two, *three, *low, *near, said), not one
+    )
 
 
-def _establish(task: RoleTask) -> Made:
+def _establish(task: RoleTask) -> ImportedShot:
     far, one = task.param("x_s", -30.0)
     near, two = task.param("x_e", -15.0)
     high, low = task.altitude("z_s")
@@ -134,7 +136,7 @@ def _establish(task: RoleTask) -> Made:
                 "an approach is told along the target's way", "along its way at the start of the shot"
             ),
         )
-    return Made("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
+    return ImportedShot("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
 
 
 def _apart(task: RoleTask, away: float) -> tuple[float, Said]:
@@ -143,7 +145,7 @@ def _apart(task: RoleTask, away: float) -> tuple[float, Said]:
     return NEAREST_M, (task.assume(f"{away:g} m from the target is too near", f"{NEAREST_M:g} m"),)
 
 
-KINDS: dict[str, Callable[[RoleTask], Made]] = {
+KINDS: dict[str, Callable[[RoleTask], ImportedShot]] = {
     "CHASE": _chase,
     "LEAD": _chase,
     "LATERAL": _lateral,

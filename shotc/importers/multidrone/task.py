@@ -18,7 +18,7 @@ Said = tuple[str, ...]
 Path = tuple[Vec3, Vec3, Vec3]
 
 
-class Made(NamedTuple):
+class ImportedShot(NamedTuple):
     """A shot as text: its kind and parameters as YAML, and the comments above it.
 
     path    : camera positions at the start, in the middle and at the end: East, North, Up in metres

@@ -50,13 +50,13 @@ def written_mission(
     for film in films:
         shots = [line for k in range(len(film.action.roles)) for line in _shot(film, k, frame, notes)]
         said.update(shots)
-        lines += [*_unsaid(notes.below(film.action.node), said), *shots]
+        lines += [*_not_yet_written(notes.below(film.action.node), said), *shots]
         said.update(lines)
-    lines = [HEAD, *(line.strip() for line in _unsaid(notes.below(root), said)), *lines]
+    lines = [HEAD, *(line.strip() for line in _not_yet_written(notes.below(root), said)), *lines]
     return Written("\n".join([*lines, ""]), number, sum(len(film.action.roles) for film in films))
 
 
-def _unsaid(comments: Iterable[str], said: set[str]) -> Iterator[str]:
+def _not_yet_written(comments: Iterable[str], said: set[str]) -> Iterator[str]:
     """Yield the lines of comments that are not in ``said`` yet, with or without indent."""
     for comment in comments:
         if not {f"# {comment}", f"  # {comment}"} & said:

@@ -67,7 +67,7 @@ def read_geojson(data: bytes) -> FeatureCollection | FileFault:
             if rings is None:
                 others[_type_of(feature)] += 1
                 continue
-            tags, called = _tags(feature), _called(feature)
+            tags, called = _tags(feature), _name_of(feature)
             name = next(iter(called), f"feature {number}")
             footprints += [Footprint(ring, tags, name, number, called) for ring in map(_ring, rings)]
         except _Wrong as wrong:
@@ -183,7 +183,7 @@ def _tags(feature: Mapping[str, Any]) -> Tags:
     return {**below, **properties} if isinstance(below, dict) else properties
 
 
-def _called(feature: Mapping[str, Any]) -> tuple[str, ...]:
+def _name_of(feature: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the name of a feature and its ids, each once."""
     tags = _tags(feature)
     known = (tags.get("name"), feature.get("id"), tags.get("@id"), tags.get("id"))

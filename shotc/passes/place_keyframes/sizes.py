@@ -9,7 +9,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import aim_at, view
 from shotc.geom.vec import Vec2, Vec3
-from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
+from shotc.geom.viewpoint import Lens, RequiredView, distance_for, lens_for, nearest
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
 from shotc.ir.framed_scene import lens_of
@@ -76,7 +76,7 @@ def _framed(mission: MissionIR, placed: PlacedShot, required: float) -> str:
 def _instead(mission: MissionIR, look: SizeCase, required: float) -> str:
     """Return the distance and the lens that would give a target its size."""
     target = mission.target(look.name)
-    subject = Wanted(target.centre, target.shape, look.uv)
+    subject = RequiredView(target.centre, target.shape, look.uv)
     away = hypot(*look.offset)
     x, y, z = (c / away for c in look.offset)
     far = distance_for(subject, look.lens, (x, y, z), required)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from math import inf, isfinite
 
-from shotc.ir.measures import told_apart
+from shotc.ir.measures import distinct_measures
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import LIMIT_TOLERANCE
 from shotc.units import clip
@@ -58,7 +58,7 @@ def _first_difference(written: Claim, proved: Claim) -> Iterator[str]:
     for field, name in (("limit", "limit"), ("worst", "worst value")):
         one, other = getattr(written, field), getattr(proved, field)
         if not _same(one, other):
-            shown = told_apart(one, other, proved.unit)
+            shown = distinct_measures(one, other, proved.unit)
             yield f"the {name} is {shown[0]} in the certificate, {shown[1]} in the plan"
             return
     for field, (yes, no) in _VERDICTS.items():

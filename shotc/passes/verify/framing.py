@@ -18,7 +18,7 @@ from shotc.ir.sampling import clock, framed, projected, references, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.close import errors_close, margins_close
-from shotc.passes.verify.reference import held, wanted_framing
+from shotc.passes.verify.reference import held, reference_framing
 from shotc.passes.verify.visible import visible
 from shotc.planning.framing.moments import placed_at
 
@@ -62,7 +62,7 @@ def filmed(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Filmed]:
 
 def framing(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
     """Yield claims on what a shot promises of its targets; without a promise they are soft."""
-    yield from wanted_framing(flight, placed_at(flight.mission, shot.placed, shot.phase.start), shot.phase)
+    yield from reference_framing(flight, placed_at(flight.mission, shot.placed, shot.phase.start), shot.phase)
     for view in shot.views:
         yield _in_frame(flight, view)
         yield from _screen_error(flight, view)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.measures import enough, told_apart
+from shotc.ir.measures import distinct_measures, enough
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
@@ -30,7 +30,7 @@ def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
         return None
     mission, pair = ir.keyframes.mission, (tracks[claim.subject], other)
     phases = [filming(track, claim.time) for track in pair]
-    reached, least = told_apart(claim.worst, claim.limit, claim.unit)
+    reached, least = distinct_measures(claim.worst, claim.limit, claim.unit)
     shots = [f"`{phase.shot}`" for phase in phases if phase is not None]
     where = f", for shot{'s' if len(shots) > 1 else ''} {' and '.join(shots)}" if shots else ""
     return Diagnostic(

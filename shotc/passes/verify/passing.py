@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import inf_distance
 from shotc.geom.solids import Solid, distance
-from shotc.ir.measures import told_apart
+from shotc.ir.measures import distinct_measures
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
@@ -49,7 +49,7 @@ class ClosestPass(NamedTuple):
     counts_from: str = ""
 
 
-def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
+def reported_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
     """Yield diagnostics of broken clearances on transfers: stated ones each, others once per transfer.
 
     An unstated clearance gets a warning only if more than a tenth of it lacks.
@@ -142,7 +142,7 @@ def _refused(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Diagnostic:
 
 
 def _near(claim: Claim, passed: ClosestPass) -> str:
-    has, needs = told_apart(passed.has, passed.needs, "m")
+    has, needs = distinct_measures(passed.has, passed.needs, "m")
     return f"{passed.name} at {has} {_where(passed.way)}; {needs} {_kept(claim)}"
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.measures import SHARES, enough, told_apart
+from shotc.ir.measures import SHARES, distinct_measures, enough
 from shotc.ir.mission import Shot
 from shotc.ir.owners import owner_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
@@ -47,7 +47,9 @@ def broken_promise(claim: Claim, code: str) -> str:
     shot = f"shot `{claim.shot}`"
     if not isfinite(claim.worst):
         return f"{target} in {shot}: {_UNSEEN[code]}"
-    reached, promised = told_apart(claim.worst, claim.limit, claim.unit if claim.unit in SHARES else "")
+    reached, promised = distinct_measures(
+        claim.worst, claim.limit, claim.unit if claim.unit in SHARES else ""
+    )
     if code == "V019":
         return f"{target} is whole in {reached} of the frames of {shot}, {promised} is promised"
     side = "most" if claim.upper else "least"

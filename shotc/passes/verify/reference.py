@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 
 
-def wanted_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
 
     Between two references the wanted one lies on the straight line from one to the other. Both claims are

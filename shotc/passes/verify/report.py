@@ -7,7 +7,7 @@ from math import isfinite
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.allow import HIDDEN
-from shotc.ir.measures import told_apart
+from shotc.ir.measures import distinct_measures
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
@@ -19,7 +19,7 @@ from shotc.passes.verify.energy import energy_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
-from shotc.passes.verify.passing import told_passes
+from shotc.passes.verify.passing import reported_passes
 from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promise, promise_help, target_of
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
@@ -127,7 +127,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
 
     Preferences on drones' pictures are reported once a shot, and clearances of transfers once a transfer.
     """
-    yield from told_passes(ir, claims)
+    yield from reported_passes(ir, claims)
     for claim in claims:
         if claim.holds or claim.constraint.endswith(PASSED):
             continue
@@ -189,14 +189,14 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         causes = [wind_note(mission, claim), energy_note(claim, certificate)]
         notes += filter(None, [*causes, *nearest_part(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
-    limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
+    limit = f"{side_of(claim)} {distinct_measures(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
     return Diagnostic(rule.code, message, labels, tuple(notes), help_)
 
 
 def state_of(claim: Claim, code: str) -> str:
     """Return the worst value and its limit, with enough digits to distinguish them."""
-    reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
+    reached, limit = distinct_measures(claim.worst, claim.limit, claim.unit)
     state = f"is {reached}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
     return (
         f"{_name(claim, code)} {state}, {side_of(claim)} {limit} is {'allowed' if claim.upper else 'needed'}"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.measures import measure, told_apart
+from shotc.ir.measures import distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
@@ -116,7 +116,7 @@ def _how_far(sight: CameraAndBody, claim: Claim) -> str:
     far = f"{float(away):.1f} m from the camera"
     if sight.mission.rules.half_angle is None:
         return f"its body reaches {measure(-claim.worst, 'm')} into the frame, {far}"
-    reached, required = told_apart(max(0.0, claim.worst), claim.limit, "rad")
+    reached, required = distinct_measures(max(0.0, claim.worst), claim.limit, "rad")
     return f"its body is {reached} off the axis, {required} are to be kept free, {far}"
 
 

@@ -28,10 +28,10 @@ from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import (
     ASKED,
     FROM_AFAR,
-    Ask,
+    EndRequirement,
     NoMotion,
     OtherVehicles,
-    aside,
+    leading_aside,
     timed_shot,
 )
 from shotc.planning.clock.starts import (
@@ -165,7 +165,7 @@ class Itinerary:
         placed, start, before, _ = self.last
         self._restore(before)
         for led in ends:
-            reached = self._reached_as(placed, start, aside(*led))
+            reached = self._reached_as(placed, start, leading_aside(*led))
             if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE_S:
                 self._add(placed, reached)
                 return True
@@ -353,7 +353,13 @@ class Itinerary:
         if not isinstance(near, Reached):
             return near
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
-        tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
+        tries = (
+            (leading_aside(True, out), FROM_AFAR)
+            if near.way.met
+            else (leading_aside(into, out),)
+            if into or out
+            else ()
+        )
         for requirements in tries:
             far = self._reached_as(placed, start, requirements)
             if isinstance(far, Reached) and far.better(near):
@@ -361,7 +367,7 @@ class Itinerary:
         return near
 
     def _reached_as(
-        self, placed: PlacedShot, start: float, requirements: tuple[Ask, ...]
+        self, placed: PlacedShot, start: float, requirements: tuple[EndRequirement, ...]
     ) -> Reached | ClockFailure:
         """Plan a shot and the transfer to it, with given requirements on the shot's ends."""
         camera_task = CameraTask(self.mission, self.drone, placed.subjects)

@@ -19,7 +19,7 @@ from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.task import ClockTask, drawn_to, ideal_of
 from shotc.planning.clock.visibility import PictureHalfSpaces, keep_free
-from shotc.planning.corridor import Around, with_corridor
+from shotc.planning.corridor import LinearisedCorridor, with_corridor
 from shotc.planning.free_space import HalfSpaces, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
@@ -280,7 +280,7 @@ def _coefficients(first: int, last: int, pieces: int) -> SplineFunctionals:
 
 def _walled(task: ClockTask, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
     breaks = task.clock.breaks
-    problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
+    problem = with_corridor(base, LinearisedCorridor(task.walls, breaks, hulls, reach, share))
     first = len(task.walls.owners)
     half_spaces = [motion_rows(breaks, sides(task.motions, hulls), first)]
     half_spaces += [

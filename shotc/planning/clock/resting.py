@@ -24,7 +24,7 @@ PLACES_ON_RING = 16  # places on a ring
 RISES_RAD = (0.0, 0.5, 1.0)  # rad, elevations of the rings, besides straight up
 
 
-def aside_of_what_passes(
+def shift_beside_traffic(
     near: Sequence[Moving], space: FreeSpace, rest: Array, span: tuple[float, float]
 ) -> Array:
     """Return the shortest shift of a place of rest to where nothing passes, shape (3,); zero if there is

@@ -21,7 +21,7 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import LIMITS, SIGHT, ClockDeviation, ClockLeg
 from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
-from shotc.ir.setpoints import places_asked
+from shotc.ir.setpoints import required_places
 from shotc.planning.clock.aims import CameraTask, camera_task_of
 from shotc.planning.clock.between import lacking_each
 from shotc.planning.clock.bounds import bounds_of
@@ -31,7 +31,7 @@ from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import PositionResult, fly, held_where_it_rests, standing_by
-from shotc.planning.clock.resting import LONG_S, aside_of_what_passes
+from shotc.planning.clock.resting import LONG_S, shift_beside_traffic
 from shotc.planning.clock.run_up import RunUp, run_ups
 from shotc.planning.clock.seeing import led_to_see, shown, ways_of
 from shotc.planning.clock.task import ClockTask, led
@@ -54,7 +54,7 @@ STEP_S = 0.1  # seconds between samples of the deviation
 PICTURES = "the pictures of other drones"
 
 
-class Ask(NamedTuple):
+class EndRequirement(NamedTuple):
     """Requirements on the ends of a motion.
 
     stand : seconds that the drone may stand there with all clearances
@@ -67,18 +67,24 @@ class Ask(NamedTuple):
     aside: tuple[bool, bool] = (False, False)
 
 
-ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
+ASKED = (
+    EndRequirement(3.0, 1.0),
+    EndRequirement(1.0, 1.0),
+    EndRequirement(0.0, 1.0),
+    EndRequirement(0.0, 2.0),
+)
 """Requirements from strict to weak; the first feasible ones are used."""
-FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
+FROM_AFAR = (EndRequirement(3.0, 2.0), EndRequirement(0.0, 2.0), EndRequirement(0.0, 3.0))
 """The same where no transfer leads to the start of such a motion: it begins farther off."""
 
 
-def aside(before: bool, after: bool) -> tuple[Ask, ...]:
+def leading_aside(before: bool, after: bool) -> tuple[EndRequirement, ...]:
     """Return requirements with rest away from moving obstacles: before the film, after it, or both."""
     if not (before or after):
         return ASKED
     return tuple(
-        Ask(stand, longer, (before, after)) for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
+        EndRequirement(stand, longer, (before, after))
+        for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
     )
 
 
@@ -156,7 +162,7 @@ def timed_shot(
     around: Around,
     placed: PlacedShot,
     start: float,
-    requirements: tuple[Ask, ...] = ASKED,
+    requirements: tuple[EndRequirement, ...] = ASKED,
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``, or why there is none.
 
@@ -239,7 +245,11 @@ def _seeing(best: _Motion) -> _Motion:
 
 
 def _flown(
-    camera_task: CameraTask, around: Around, shot: Shot, start: float, requirements: tuple[Ask, ...]
+    camera_task: CameraTask,
+    around: Around,
+    shot: Shot,
+    start: float,
+    requirements: tuple[EndRequirement, ...],
 ) -> tuple[ClockTask, PositionResult]:
     """Return the motion with the strictest feasible requirements, or the last infeasible one.
 
@@ -260,7 +270,9 @@ def _flown(
     return best or (task, flown)
 
 
-def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> ClockTask:
+def _task(
+    camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: EndRequirement
+) -> ClockTask:
     """Return the task of the position for given requirements."""
     spaces, others = around
     near = (*standing(spaces), *others.moving)
@@ -275,7 +287,11 @@ def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask
 
 
 def _ways(
-    camera_task: CameraTask, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], FreeSpace]
+    camera_task: CameraTask,
+    shot: Shot,
+    start: float,
+    ask: EndRequirement,
+    around: tuple[tuple[Moving, ...], FreeSpace],
 ) -> tuple[RunUp, RunUp]:
     """Return the run-up and the run-out; around : obstacles and the free space."""
     end = start + (shot.timing.duration or 0.0)
@@ -299,7 +315,7 @@ def _led(
         straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
         # The span includes the run-up, because an obstacle that passes then would meet the drone.
         span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
-        led = run_up.led(aside_of_what_passes(*around, straight, span), drone.limits)
+        led = run_up.led(shift_beside_traffic(*around, straight, span), drone.limits)
     return led
 
 
@@ -341,7 +357,7 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, .
     for subject in placed.subjects:
         reference = None
         if subject.reference is not None:
-            reference = _place_curve(places_asked(subject.reference, subject.setpoints), start, end)
+            reference = _place_curve(required_places(subject.reference, subject.setpoints), start, end)
         spans.append(Reference(placed.shot.id, subject.target, start, end, reference))
     return tuple(spans)
 

@@ -26,7 +26,7 @@ from shotc.geom.bspline import (
 )
 from shotc.ir.limits import Limits
 from shotc.ir.owners import Owner
-from shotc.planning.corridor import Around, with_corridor
+from shotc.planning.corridor import LinearisedCorridor, with_corridor
 from shotc.planning.free_space import FreeSpace, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
@@ -153,7 +153,7 @@ def _iterate(
     best: SplineSolution | None = None
     problem = base
     for used in range(1, MOST_ROUNDS + 1):
-        problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
+        problem = with_corridor(base, LinearisedCorridor(wide, breaks, hulls, reach, share))
         solution = minimise(problem, least=least, near=None if best is None else best.coef)
         if solution.coef is None:
             return _Iterated(problem, best or solution.status, used)

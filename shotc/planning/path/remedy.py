@@ -57,7 +57,7 @@ def remedy(
             gives = {name: up(factor * lack + 0.01) for name, lack in some}
             wider = _giving(mission, space, gives)
             if gives and wider is not None and _fits(mission, drone, wider, shot, what):
-                return " and ".join(_asked(mission, name, metres) for name, metres in gives.items())
+                return " and ".join(_relaxation(mission, name, metres) for name, metres in gives.items())
     return None
 
 
@@ -71,7 +71,7 @@ def needed(mission: MissionIR, owner: Owner, metres: float) -> str:
     return f"{owner.words} would have to be {metres:.2f} m {change} on every side"
 
 
-def _asked(mission: MissionIR, owner: Owner, metres: float) -> str:
+def _relaxation(mission: MissionIR, owner: Owner, metres: float) -> str:
     if owner == GROUND:
         return f"lower rules.ground_clearance by {metres:.2f} m"
     if owner == CEILING:

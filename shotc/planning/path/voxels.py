@@ -97,7 +97,7 @@ class _Search:
 
     def __init__(self, space: FreeSpace, grid: _Grid, start: Array, end: Array) -> None:
         self.space = space
-        free, slack = _room(space, grid)
+        free, slack = _free_voxels(space, grid)
         voxels = np.flatnonzero(free)
         self.nodes: Array = np.concatenate([np.stack([start, end]), grid.middles(voxels)])
         slack = np.concatenate([np.zeros(2), slack[voxels]])
@@ -145,7 +145,7 @@ def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
     return shut
 
 
-def _room(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
+def _free_voxels(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
     """Return which voxels' middles are free, and lower bounds of their slack beyond a margin, metres."""
     every = np.arange(int(np.prod(grid.shape)))
     slack = np.full(len(every), ROOM_M)

@@ -87,7 +87,7 @@ class _Late:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class DueLeg:
+class LegDeadlines:
     """A leg with deadlines.
 
     fast : its moves at full limits, which are ``ceiling``
@@ -172,7 +172,7 @@ def _available(plan: StopPlan, a: _Anchor, b: _Anchor) -> float:
     return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
 
 
-def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
+def _attempt(timed: LegDeadlines, anchors: list[_Anchor]) -> Timed | _Late:
     parts: list[_Part] = []
     plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in anchors})
     for i, (a, b) in enumerate(pairwise(anchors)):
@@ -217,7 +217,7 @@ def _parts(plan: StopPlan, moves: tuple[TimedMove, ...], start: float, end: floa
     return parts
 
 
-def _made(timed: DueLeg, fast: TimedMove, parts: list[_Part]) -> TimedMove | None:
+def _made(timed: LegDeadlines, fast: TimedMove, parts: list[_Part]) -> TimedMove | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0 - SOLVED_TO, parts[0].seconds / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
@@ -226,7 +226,7 @@ def _made(timed: DueLeg, fast: TimedMove, parts: list[_Part]) -> TimedMove | Non
     return windowed_move(fast.path, span, timed.ceiling, ends, seconds)
 
 
-def _least_delay(timed: DueLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
+def _least_delay(timed: LegDeadlines, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
     """Return the least feasible delay of the late anchor (and of all after it), seconds, or None."""
 
     def enough(delay: float) -> bool:

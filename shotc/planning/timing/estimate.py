@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
-from shotc.planning.timing.deadlines import DueLeg, TooFast, has_times
+from shotc.planning.timing.deadlines import LegDeadlines, TooFast, has_times
 from shotc.planning.timing.grid import evened, rough_profile
 from shotc.planning.timing.leg import LegMotion, StopPlan, assemble, fastest_moves, plan_of
 from shotc.planning.timing.limits import Ceiling, ceiling_of
@@ -66,7 +66,7 @@ def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
     if smooth != ceiling and can_be_timed(leg, smooth):
         return time_leg(replace(leg, smoother=1.0), smooth)
     fast = fastest_moves(leg, plan, ceiling)
-    timed = _due(leg, plan, fast, ceiling).meet()
+    timed = _leg_deadlines(leg, plan, fast, ceiling).meet()
     if isinstance(timed, TooFast):
         return LegTiming(assemble(leg, plan, fast, None), fast, timed)
     return LegTiming(assemble(leg, timed.plan, timed.moves, leg.duration), fast, None)
@@ -75,12 +75,14 @@ def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
 def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
     """Return whether a leg's deadlines are feasible below a ceiling."""
     plan = plan_of(leg)
-    return _due(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
+    return _leg_deadlines(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
 
-def _due(leg: MovingLeg, plan: StopPlan, fast: tuple[TimedMove, ...], ceiling: Ceiling) -> DueLeg:
+def _leg_deadlines(
+    leg: MovingLeg, plan: StopPlan, fast: tuple[TimedMove, ...], ceiling: Ceiling
+) -> LegDeadlines:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, _paced(leg, ceiling))
-    return DueLeg(leg, plan, fast, paced, ceiling)
+    return LegDeadlines(leg, plan, fast, paced, ceiling)
 
 
 def _paced(leg: MovingLeg, ceiling: Ceiling) -> Ceiling:
@@ -105,4 +107,4 @@ def lateness(drone: Drone, leg: PathLeg) -> float:
     """Return the relative lateness of a leg's fastest flight against its deadlines, at least 0."""
     ceiling, plan = ceiling_of(drone), plan_of(leg)
     fast = fastest_moves(leg, plan, ceiling)
-    return DueLeg(leg, plan, fast, fast, ceiling).lateness()
+    return LegDeadlines(leg, plan, fast, fast, ceiling).lateness()

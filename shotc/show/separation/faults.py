@@ -18,7 +18,7 @@ from shotc.ir.show import Fleet, Picture, RecordedFlight, drone_names
 from shotc.rounding import at_least, at_most
 from shotc.show.labels import wider
 from shotc.show.separation.longer import MoveBetweenStops
-from shotc.show.separation.off_goals import Off
+from shotc.show.separation.off_goals import GoalDistance
 
 STILL_M = 1e-6
 """Largest movement of a drone that stands on its pad."""
@@ -26,7 +26,7 @@ DEGREE = 3
 """Degree of the splines: a control point acts from that many breaks before its own on."""
 
 
-class Tried(NamedTuple):
+class RepairAttempts(NamedTuple):
     """What was tried for a stretch without success.
 
     found : the nearest pair of the flight that the goals ask for
@@ -66,7 +66,9 @@ def recorded_in(mission: MissionIR, flight: FleetTrajectory, span: tuple[float, 
     return next((p for p in pictures if isinstance(p.source, RecordedFlight)), None)
 
 
-def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tried) -> Diagnostic:
+def recorded_too_near(
+    mission: MissionIR, fleet: Fleet, picture: Picture, tried: RepairAttempts
+) -> Diagnostic:
     """Return D156: two drones of a recorded flight come too near, and no repair was found."""
     nearest, across = tried.found, fleet.apart.across
     notes = [_who(fleet, nearest)]
@@ -83,7 +85,9 @@ def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried:
     )
 
 
-def too_near(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: Tried) -> Diagnostic:
+def too_near(
+    mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: RepairAttempts
+) -> Diagnostic:
     """Return D086: between two stops no flight was found that keeps the drones apart."""
     path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
     nearest, across = tried.found, fleet.apart.across
@@ -100,7 +104,9 @@ def too_near(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried:
     )
 
 
-def _remedies(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: Tried) -> Iterator[str]:
+def _remedies(
+    mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: RepairAttempts
+) -> Iterator[str]:
     """Yield known remedies: verified by planning, or with spacing for which straight moves cannot fail."""
     if tried.seconds is not None:
         yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"
@@ -151,7 +157,7 @@ def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
     )
 
 
-def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
+def bent(mission: MissionIR, fleet: Fleet, off: GoalDistance) -> Diagnostic:
     """Return D088: a drone is far from its goal when its frame is shown."""
     limits = off.distance > 2.0 * off.smooth
     why = "its limits, or keeping apart," if limits else "the smooth way through the goals"

@@ -12,7 +12,7 @@ from shotc.ir.fleet import FleetTrajectory, FrameTimes
 
 
 @dataclass(frozen=True, slots=True)
-class Off:
+class GoalDistance:
     """The largest distance of a drone from its goal when a frame is shown, m.
 
     smooth : the part due to the spline through the goals, which a longer period does not reduce
@@ -32,7 +32,7 @@ class Off:
         return [(f"{name}, largest m", self.distance), (f"{name}, where", frame)]
 
 
-def farthest(flight: FleetTrajectory, reference: Array) -> Off:
+def farthest(flight: FleetTrajectory, reference: Array) -> GoalDistance:
     """Return the drone that is farthest from its goal, over all frames.
 
     reference : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
@@ -45,4 +45,4 @@ def farthest(flight: FleetTrajectory, reference: Array) -> Off:
     drone, frame = (int(k) for k in np.unravel_index(int(off.argmax()), off.shape))
     place = places(flight.breaks, reference[drone : drone + 1], times[frame : frame + 1])[0, 0]
     smooth = float(np.linalg.norm(place - goals[drone, frame]))
-    return Off(float(off[drone, frame]), smooth, drone, flight.shown[frame])
+    return GoalDistance(float(off[drone, frame]), smooth, drone, flight.shown[frame])

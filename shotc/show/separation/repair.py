@@ -19,7 +19,13 @@ from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing
 from shotc.show.geom.windows import Window, windows
 from shotc.show.separation.common import common
-from shotc.show.separation.faults import Tried, recorded_in, recorded_too_near, standing_too_near, too_near
+from shotc.show.separation.faults import (
+    RepairAttempts,
+    recorded_in,
+    recorded_too_near,
+    standing_too_near,
+    too_near,
+)
 from shotc.show.separation.longer import MoveBetweenStops, longer
 from shotc.show.separation.pushed import Pushed, pushed
 
@@ -106,7 +112,7 @@ class Keeper:
         standing = self._standing(window)
         recorded = recorded_in(self.mission, self.flight, (float(breaks[0]), float(breaks[-1])))
         if standing is not None and recorded is not None:
-            tried = Tried(standing, 0.0, None)
+            tried = RepairAttempts(standing, 0.0, None)
             self.faults.append(recorded_too_near(self.mission, self.fleet, recorded, tried))
             return
         if standing is not None:
@@ -117,7 +123,7 @@ class Keeper:
             done = pushed(breaks, coef, self.fleet, self.ctx.seed, free=free)
         self.rounds += done.rounds
         if done.coef is None and recorded is not None:
-            tried = Tried(nearest, max(nearest.proven, done.reached), None)
+            tried = RepairAttempts(nearest, max(nearest.proven, done.reached), None)
             self.faults.append(recorded_too_near(self.mission, self.fleet, recorded, tried))
             return
         if done.coef is None:
@@ -142,7 +148,7 @@ class Keeper:
         )
         seconds = longer(stretch, self.fleet, self.ctx)
         best = max(nearest.proven, done.reached)
-        return too_near(self.mission, self.fleet, stretch, Tried(nearest, best, seconds))
+        return too_near(self.mission, self.fleet, stretch, RepairAttempts(nearest, best, seconds))
 
     def _standing(self, window: Window) -> Nearest | None:
         """Return the pair that is too near at one of its stops, where nothing can be repaired, or None."""

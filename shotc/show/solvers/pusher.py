@@ -78,14 +78,14 @@ class Pusher:
         crowded_drones = [self.pairs(at[:, k], distance) for k in range(len(times))]
         return np.unique(np.concatenate(crowded_drones))
 
-    def push(self, start: Array, distance: Array, movable: Index, push: Push) -> Array:
+    def push(self, start: Array, reference: Array, movable: Index, push: Push) -> Array:
         """Return improved control points, shape (n, K, 3).
 
         start : control points to start from, shape (n, K, 3)
-        distance : control points from which deviation is measured, shape (n, K, 3)
+        reference : control points from which deviation is measured, shape (n, K, 3)
         movable : the drones whose points may change
         """
-        cost = _Cost(self, start, distance, movable, push)
+        cost = _Cost(self, start, reference, movable, push)
         optimum = minimize(
             cost,
             cost.begin(),
@@ -129,12 +129,12 @@ def slopes(relative: Array, size: Array, apart: Distances) -> Array:
 class _Cost:
     """The cost as a function of the movable drones' free points, shape (F, m, 3)."""
 
-    def __init__(self, pusher: Pusher, start: Array, distance: Array, movable: Index, push: Push) -> None:
+    def __init__(self, pusher: Pusher, start: Array, reference: Array, movable: Index, push: Push) -> None:
         self.pusher, self.push = pusher, push
         self.free = pusher.free
         self.shape = (len(range(*self.free.indices(start.shape[1]))), len(movable), 3)
         self.start = np.moveaxis(start[movable], 1, 0)
-        self.wanted = np.moveaxis(distance[movable], 1, 0)[self.free]
+        self.wanted = np.moveaxis(reference[movable], 1, 0)[self.free]
         self.ends = self.start.copy()
         self.ends[self.free] = 0.0
         self._rows()

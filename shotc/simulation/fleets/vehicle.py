@@ -85,8 +85,8 @@ def moved(vehicle: FleetVehicle, state: FleetState, command: Array, step: float)
     position, velocity, acceleration = state.position, state.velocity, state.acceleration
     for _ in range(parts):
         missing = command - velocity - state.gust
-        rate = within(missing / vehicle.response, vehicle.acceleration)
-        acceleration = acceleration + (rate - acceleration) * (1.0 - exp(-h / vehicle.lag))
+        demanded = within(missing / vehicle.response, vehicle.acceleration)
+        acceleration = acceleration + (demanded - acceleration) * (1.0 - exp(-h / vehicle.lag))
         velocity = velocity + h * acceleration
         position = position + h * (velocity + state.gust)
     return FleetState(position, velocity, acceleration, state.gust)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from shotc_casadi.replan.framing import Framing
-from shotc_casadi.replan.steps import Until
+from shotc_casadi.replan.steps import StopRule
 
 from shotc.geom.bernstein import Array
 from tests.experiments.papers.report import Table, spread
@@ -18,7 +18,7 @@ from tests.support.framings import Film, Swaying, film, problem
 from tests.support.replans import DT
 
 SEEDS, STEPS, ROUNDS = (0, 1, 2), 200, 3
-CONVERGED = Until(30, 1e-3)
+CONVERGED = StopRule(30, 1e-3)
 # Stages and subjects: what is wanted at 95 %, and the paper's mean, ms.
 CASES = {(25, 1): (2.0, 9), (25, 2): (2.5, 10), (25, 3): (3.0, 11), (40, 2): (4.5, 15), (55, 2): (7.0, 25)}
 COLUMNS = (
@@ -68,17 +68,17 @@ def table(say: Callable[[str], None]) -> Table:
     return Table("Framings: time of a replan (viewpoint, Experiment 5)", COLUMNS, tuple(rows), NOTES)
 
 
-def _films(stages: int, count: int, until: Until | None) -> list[Film]:
+def _films(stages: int, count: int, until: StopRule | None) -> list[Film]:
     return [
         film(_planner(stages, until), stages, Swaying(count, seed, STEPS * DT), STEPS, seed) for seed in SEEDS
     ]
 
 
-def _planner(stages: int, until: Until | None) -> Framing:
+def _planner(stages: int, until: StopRule | None) -> Framing:
     return Framing(problem(stages)) if until is None else Framing(problem(stages), until)
 
 
-def _times(stages: int, films: Sequence[Film], until: Until | None = None, rounds: int = ROUNDS) -> Array:
+def _times(stages: int, films: Sequence[Film], until: StopRule | None = None, rounds: int = ROUNDS) -> Array:
     """Return milliseconds of all replans of films but the first of each."""
     planner = _planner(stages, until)
     asked = [each for one in films for each in one.asked if each[1] is not None]

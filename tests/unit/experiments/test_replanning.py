@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from shotc_casadi.replan.chase import ShotChase
-from shotc_casadi.replan.steps import Until
+from shotc_casadi.replan.steps import StopRule
 
 from tests.experiments.papers import reframing, two_anew, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
@@ -54,7 +54,7 @@ def test_a_jerk_is_a_third_derivative():
 def test_converged_it_costs_what_fatrop_s_replans_do(name):
     n = HORIZONS[name]
     task = problem(n, zone(TREE))
-    fine = ShotChase(task, Until(40, 1e-6))
+    fine = ShotChase(task, StopRule(40, 1e-6))
     for known, last in flown(name).asked[::6]:
         done = fine.replan(known, last)
         theirs = warm.solve(task, known, _shifted(known.time, last))

@@ -17,8 +17,8 @@ from shotc.geom.shapes import CylinderShape
 from shotc.geom.viewpoint import (
     Lens,
     PlaceBounds,
-    Since,
-    Wanted,
+    PreviousView,
+    RequiredView,
     direction,
     distance_for,
     first_pose,
@@ -32,7 +32,7 @@ from shotc.geom.viewpoint import (
 
 LENS = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
 ROOM = PlaceBounds(2.7, 1.6)
-MAN = Wanted((0.0, 0.0, 20.0), CylinderShape(0.4, 1.8))
+MAN = RequiredView((0.0, 0.0, 20.0), CylinderShape(0.4, 1.8))
 
 angles = st.floats(-pi, pi)
 places = st.tuples(st.floats(-0.6, 0.6), st.floats(-0.5, 0.5))
@@ -102,7 +102,7 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
     subjects = []
     for centre in centres:
         u, v, _ = camera.project(tuple(c - e for c, e in zip(centre, eye, strict=True)))
-        bare = Wanted(centre, CylinderShape(0.4, 1.8))
+        bare = RequiredView(centre, CylinderShape(0.4, 1.8))
         seen = judged(pose, LENS, bare)
         assume(seen is not None and seen.out == 0.0 and abs(u) < 0.8 and abs(v) < 0.7)
         subjects.append(bare._replace(uv=(u, v), size=seen.size))
@@ -121,7 +121,7 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
 def test_the_first_pose_has_all_subjects_in_its_frame_through_any_lens(hfov: float) -> None:
     lens = Lens(radians(hfov), 16 / 9, (-pi / 2, radians(30)))
     subjects = [
-        Wanted((x, y, 3.0), CylinderShape(0.4, 1.8)) for x, y in ((0.0, 0.0), (6.0, 1.0), (-2.0, 5.0))
+        RequiredView((x, y, 3.0), CylinderShape(0.4, 1.8)) for x, y in ((0.0, 0.0), (6.0, 1.0), (-2.0, 5.0))
     ]
     for bearing in range(12):
         pose = first_pose(subjects, lens, ROOM, bearing * pi / 6)
@@ -135,7 +135,7 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     """Subjects at random, more asked than can be had: the cost is a minimum, within the bounds."""
     rng = np.random.default_rng(seed)
     subjects = tuple(
-        Wanted(
+        RequiredView(
             (*rng.uniform(-8, 8, 2), 0.9),
             CylinderShape(0.4, 1.8),
             uv=tuple(rng.uniform(-0.6, 0.6, 2)),
@@ -160,11 +160,11 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
 def test_a_camera_goes_no_farther_than_its_way() -> None:
     subjects = (
         MAN._replace(uv=(-0.3, 0.0), size=0.3),
-        Wanted((3.0, 0.0, 20.0), CylinderShape(0.4, 1.8), (0.3, 0.0)),
+        RequiredView((3.0, 0.0, 20.0), CylinderShape(0.4, 1.8), (0.3, 0.0)),
     )
     start = first_pose(subjects, LENS, ROOM, 0.0)
     free, _ = viewpoint(subjects, LENS, ROOM, start)
-    since = Since(start[:3], start[:3], 1.0)
+    since = PreviousView(start[:3], start[:3], 1.0)
     held, _ = viewpoint(subjects, LENS, ROOM, start, since)
     assert hypot(*(a - b for a, b in zip(free[:3], start[:3], strict=True))) > 2.0
     assert hypot(*(a - b for a, b in zip(held[:3], start[:3], strict=True))) < 1.1

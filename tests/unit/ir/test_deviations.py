@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shotc.ir.path import CALM, LIMITS, ClockDeviation, from_what_was_asked
+from shotc.ir.path import CALM, LIMITS, ClockDeviation, from_required_positions
 from tests.support.front_passes import clean
 
 TEXT = """\
@@ -32,6 +32,6 @@ def test_between_keyframes_only_limits_and_calm_do_not_count() -> None:
         for shot in ("keyed", "chase")
         for cause in (LIMITS, CALM, WHOLE, "`tree`")
     ]
-    left = from_what_was_asked(mission, all_)
+    left = from_required_positions(mission, all_)
     assert [d.cause for d in left if d.shot == "keyed"] == [WHOLE, "`tree`"]
     assert [d for d in left if d.shot == "chase"] == [d for d in all_ if d.shot == "chase"]

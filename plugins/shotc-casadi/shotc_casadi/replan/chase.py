@@ -19,10 +19,10 @@ from shotc_casadi.clock.angles import rates
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
 from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, length, pitched, rows, within
-from shotc_casadi.replan.steps import Solver, Until
+from shotc_casadi.replan.steps import Solver, StopRule
 
 PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # of a metre, of a m/s, of the squared step
-FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
+FIRST, WARM = StopRule(30, 1e-3), StopRule(1, 0.0)
 STATES, INPUTS = 6, 3
 STAGE_PARAMETERS = (
     BOUND_PARAMETERS + 8
@@ -33,7 +33,7 @@ SHARED_PARAMETERS = 12  # parameters of all stages: weights, reference state, he
 class ShotChase:
     """Plans a shot of one target (``ChasePlanner``)."""
 
-    def __init__(self, problem: ChaseProblem, stop_rule: Until = WARM) -> None:
+    def __init__(self, problem: ChaseProblem, stop_rule: StopRule = WARM) -> None:
         """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
         self._weights, self._until = problem.weights, stop_rule
         made = partial(_horizon, stages=problem.horizon.stages)

@@ -40,10 +40,10 @@ from shotc_casadi.replan.pictures import (
     off_view,
     uncovered,
 )
-from shotc_casadi.replan.steps import Solver, Until
+from shotc_casadi.replan.steps import Solver, StopRule
 
 PRICES = Prices(lacking=(300.0, 1.0), outside=30.0, damping=0.1)  # a metre, a cover, a m/s, a squared step
-FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
+FIRST, WARM = StopRule(30, 1e-3), StopRule(1, 0.0)
 STATES, INPUTS = 8, 5
 SHARED_PARAMETERS = (
     13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects
@@ -63,7 +63,7 @@ Cast = tuple[bool, ...]
 class Framing:
     """Plans a shot that composes subjects (``FramingPlanner``)."""
 
-    def __init__(self, problem: FramingProblem, stop_rule: Until = WARM) -> None:
+    def __init__(self, problem: FramingProblem, stop_rule: StopRule = WARM) -> None:
         """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
         self._problem, self._until = problem, stop_rule
         self._flights: dict[Cast, ShotSolvers] = {}

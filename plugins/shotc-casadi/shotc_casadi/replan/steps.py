@@ -22,7 +22,7 @@ MOST_ITERATIONS = 50
 """Of PIQP: about 10 are usual; an infeasible programme takes all of them."""
 
 
-class Until(NamedTuple):
+class StopRule(NamedTuple):
     """When to stop: after ``most`` steps, or if a step lowers the merit by less than the share ``gain``."""
 
     most: int
@@ -57,7 +57,7 @@ class Solver:
         self._shape, self._inputs = (of.stages, -1), of.inputs
         self._solver: Any = None
 
-    def walk(self, inputs: Array, stop_rule: Until) -> Walk:
+    def walk(self, inputs: Array, stop_rule: StopRule) -> Walk:
         """Take steps from inputs (N, U)."""
         taken, moved, opened = 0, False, False
         point = self.evaluation.step(inputs)

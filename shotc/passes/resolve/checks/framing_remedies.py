@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from math import degrees, radians
 
 from shotc.geom.vec import Vec3
-from shotc.geom.viewpoint import Wanted, lens_for
+from shotc.geom.viewpoint import RequiredView, lens_for
 from shotc.ir.framed_scene import lens_of
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.setpoints import Setpoint
@@ -44,7 +44,9 @@ def for_size_and_elevation(
         yield f"leave `elevation` out and {remedy}"
 
 
-def for_lens(fits: Fits, mission: MissionIR, shot: Shot, needed: Wanted, nearest: Vec3) -> Iterator[str]:
+def for_lens(
+    fits: Fits, mission: MissionIR, shot: Shot, needed: RequiredView, nearest: Vec3
+) -> Iterator[str]:
     """Yield the widest lens with which a subject has its size at its clearance or beyond.
 
     nearest : the camera's offset from the subject at its clearance, metres

@@ -10,10 +10,10 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.geom.pose_search import Pose
 from shotc.geom.vec import wrapped
-from shotc.geom.viewpoint import SubjectAppearance, Wanted, direction, judged, nearest, size_from
+from shotc.geom.viewpoint import RequiredView, SubjectAppearance, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
 from shotc.ir.framed import StartedFraming, course_of
-from shotc.ir.framed_scene import lens_of, wanted_at
+from shotc.ir.framed_scene import lens_of, required_view_at
 from shotc.ir.hidden import lacks
 from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, Near, Shot, Subject
@@ -84,7 +84,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     drone = mission.drone(shot.drone)
     near = mission.rules.beside_target(drone.radius)
     start = first_start(mission, shot)
-    needed = wanted_at(mission, subject, start, start)
+    needed = required_view_at(mission, subject, start, start)
     toward = direction(needed.azimuth or 0.0, needed.elevation or 0.0)
     least = nearest(needed, toward, near)
     x, y, z = (c * least for c in toward)
@@ -254,7 +254,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
     for subject in shot.subjects:
         seen = []
         for t, pose in zip(course.times, course.poses, strict=True):
-            required = wanted_at(mission, subject, course.times[0], t)
+            required = required_view_at(mission, subject, course.times[0], t)
             appearance = judged(pose, lens, required)
             if appearance is not None:
                 seen.append((t, appearance, required))
@@ -322,7 +322,7 @@ def _apart(
     mission: MissionIR,
     course: StartedFraming,
     subject: Subject,
-    seen: Sequence[tuple[float, SubjectAppearance, Wanted]],
+    seen: Sequence[tuple[float, SubjectAppearance, RequiredView]],
 ) -> Diagnostic | None:
     """Return the fault of a subject that is out of the picture, or much too small because of others,
     or None.
@@ -362,7 +362,7 @@ def _apart(
     )
 
 
-def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, Wanted]]) -> list[str]:
+def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, RequiredView]]) -> list[str]:
     """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
     t, worst, required = max(seen, key=lambda entry: entry[1].screen)

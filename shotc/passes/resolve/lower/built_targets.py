@@ -63,7 +63,7 @@ def bodies_of_building(
             "give the file under `world` as `buildings: {file: ...}`, or say where it stands: `at` and `size`"
         )
         return Diagnostic("G050", message, label, help=help_)
-    matching = _meant(building, standing)
+    matching = _candidates(building, standing)
     if len(matching) > 1:
         return _ambiguous(building, matching, standing)._replace(labels=label)
     if matching:
@@ -78,7 +78,7 @@ def bodies_of_building(
 _COVER = "take an elevation model that covers it"
 
 
-def _meant(name: str, standing: Obstacles) -> list[_Named]:
+def _candidates(name: str, standing: Obstacles) -> list[_Named]:
     """Return the candidates with a name; if a building and a part of it have it, only the building."""
     matching = [named for named in _all(standing) if name in named.called]
     largest: list[_Named] = []

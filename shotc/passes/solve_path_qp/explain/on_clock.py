@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import owner_of
-from shotc.ir.path import ClockDeviation, from_what_was_asked
+from shotc.ir.path import ClockDeviation, from_required_positions
 from shotc.ir.smoothing import NORMAL_S, written
 from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
@@ -19,7 +19,7 @@ SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 def left_places(mission: MissionIR, deviations: Iterable[ClockDeviation]) -> tuple[Diagnostic, ...]:
     """Return a warning per shot for the intervals on which it deviates from its ideal."""
-    every = from_what_was_asked(mission, deviations)
+    every = from_required_positions(mission, deviations)
     return tuple(
         _left_place(mission, [d for d in every if d.shot == shot])
         for shot in dict.fromkeys(d.shot for d in every)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.cli.summary import certificate_text
-from shotc.ir.measures import told_apart
+from shotc.ir.measures import distinct_measures
 from shotc.ir.promise import Promise
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
@@ -94,7 +94,7 @@ def test_a_limit_of_nothing_asks_for_no_endless_shot() -> None:
 
 @given(st.floats(-1e3, 1e3), st.floats(1e-6, 1.0), st.sampled_from(["m", "m/s", "rad", "of samples"]))
 def test_values_that_differ_look_different(value: float, by: float, unit: str) -> None:
-    one, other = told_apart(value, value + by, unit)
+    one, other = distinct_measures(value, value + by, unit)
     assert one != other
 
 

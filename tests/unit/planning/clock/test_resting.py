@@ -15,7 +15,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.resting import FARTHEST_M, aside_of_what_passes
+from shotc.planning.clock.resting import FARTHEST_M, shift_beside_traffic
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.free_space import FreeSpace, Wall
 from tests.support.compiled import compiled_text
@@ -120,14 +120,14 @@ def test_a_place_aside_is_left_alone_and_over_the_ground(
     across = np.array([-direction[1], direction[0]])
     first = along * direction + beside * across
     runner = passing((first[0], first[1]), (speed * direction[0], speed * direction[1]))
-    place = rest + aside_of_what_passes([runner], GROUND, rest, (0.0, 20.0))
+    place = rest + shift_beside_traffic([runner], GROUND, rest, (0.0, 20.0))
     times = np.linspace(0.0, 20.0, 400)
     assert distances(BODY, place - runner.at(times)).min() >= 5.3
     assert place[2] >= 1.0
 
 
 def test_a_place_where_nothing_passes_stays() -> None:
-    aside = aside_of_what_passes([passing((0, 40), (3, 0))], GROUND, np.array([0.0, 0.0, 1.5]), (0.0, 20.0))
+    aside = shift_beside_traffic([passing((0, 40), (3, 0))], GROUND, np.array([0.0, 0.0, 1.5]), (0.0, 20.0))
     assert not aside.any()
 
 
@@ -135,7 +135,7 @@ def test_where_there_is_no_place_aside_the_drone_stays() -> None:
     low = FreeSpace((), (*GROUND.walls, Wall(owner("ceiling"), (0.0, 0.0, -1.0), -3.0, 0.0)), ())
     crowd = [passing((0.0, y), (0.0, 0.0)) for y in np.arange(-FARTHEST_M, FARTHEST_M + 1, 3.0)]
     crowd += [passing((x, y), (0, 0)) for x in (-12, -6, 6, 12) for y in np.arange(-15, 16, 3.0)]
-    assert not aside_of_what_passes(crowd, low, np.array([0.0, 0.0, 1.5]), (0.0, 20.0)).any()
+    assert not shift_beside_traffic(crowd, low, np.array([0.0, 0.0, 1.5]), (0.0, 20.0)).any()
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

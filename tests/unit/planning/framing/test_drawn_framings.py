@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.viewpoint import judged
 from shotc.ir.framed import course_of
-from shotc.ir.framed_scene import lens_of, wanted_at
+from shotc.ir.framed_scene import lens_of, required_view_at
 from tests.support.framing_missions import claim, planned, text
 from tests.support.front_passes import placed
 
@@ -47,7 +47,7 @@ def test_any_framing_that_can_be_had_is_flown(size, azimuth, elevation, uv, dire
     assert ir is not None
     shot, lens = ir.mission.shots[0], lens_of(ir.mission.drones[0])
     for t, pose in zip(*course_of(ir.mission, shot, 15.0)[1:3], strict=True):
-        look = judged(pose, lens, wanted_at(ir.mission, shot.subjects[0], 15.0, t))
+        look = judged(pose, lens, required_view_at(ir.mission, shot.subjects[0], 15.0, t))
         assert look is not None
         assert look.size == pytest.approx(size, abs=6e-4)
         assert look.screen < 1e-6

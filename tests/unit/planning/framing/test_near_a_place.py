@@ -14,7 +14,7 @@ from shotc.geom.viewpoint import (
     Lens,
     PlaceBounds,
     PreferredPose,
-    Wanted,
+    RequiredView,
     distance_for,
     first_pose,
     viewpoint,
@@ -45,7 +45,7 @@ def text(subjects: str, near: str = f"near: {list(PLACE)},") -> str:
 
 def test_a_size_and_a_place_meet_where_the_sum_of_their_squares_is_least() -> None:
     lens = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
-    man = Wanted((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.3)
+    man = RequiredView((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.3)
     asked, away = distance_for(man, lens, (0.0, -1.0, 0.0), 0.3), 12.0
     room = PlaceBounds(2.0, 0.5, PreferredPose((0.0, -away, 20.0)))
     pose, _ = viewpoint((man,), lens, room, first_pose((man,), lens, room, pi))
@@ -62,7 +62,7 @@ def test_a_size_and_a_place_meet_where_the_sum_of_their_squares_is_least() -> No
 def test_angles_and_a_place_on_screen_meet_where_the_sum_of_their_squares_is_least() -> None:
     """What a camera turns aside moves its subject on screen; it may go aside a little besides."""
     lens = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
-    man = Wanted((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.05)
+    man = RequiredView((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.05)
     away, aside = distance_for(man, lens, (0.0, -1.0, 0.0), 0.05), radians(25)
     near = PreferredPose((0.0, -away, 20.0), pi / 2 + aside)
     room = PlaceBounds(2.0, 0.5, near)

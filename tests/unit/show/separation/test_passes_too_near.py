@@ -17,7 +17,7 @@ from shotc.ir.show import Apart
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.assignment import AssignGoals, order
 from shotc.show.separation import KeepApart
-from shotc.show.separation.faults import Tried, too_near
+from shotc.show.separation.faults import RepairAttempts, too_near
 from shotc.show.separation.longer import MoveBetweenStops
 from shotc.show.solvers.qcqp import DerivativeBounds, overdraft
 from shotc.show.splines import BoundSplines
@@ -124,7 +124,7 @@ def test_pads_too_near_for_any_way_are_to_be_laid_out_wider() -> None:
     ):
         a, b = (int(np.abs(flight.breaks - t).argmin()) for t in (start, end))
         stretch = MoveBetweenStops.of(flight, flight.breaks[a : b + 1], flight.coef[:, a : b + 3])
-        found = too_near(mission, mission.fleets[0], stretch, Tried(near, 0.4, None))
+        found = too_near(mission, mission.fleets[0], stretch, RepairAttempts(near, 0.4, None))
         assert found.help == "put the pads 1.42 m or more apart"
         assert stretch.key == "transition"
         assert (stretch.shown is None) == (start > flight.shown[-1].end - 1e-6)
@@ -139,7 +139,7 @@ def test_what_nothing_helps_is_to_be_larger() -> None:
     assert (stretch.key, stretch.pieces) == ("period", 1)
     assert stretch.lasting(0.5) == pytest.approx(stretch.breaks, abs=1e-9)
     near = Nearest(0.4, 0.5, 1, 2, 12.0, (0.0, 0.0, 20.0))
-    found = too_near(mission, mission.fleets[0], stretch, Tried(near, 0.678, None))
+    found = too_near(mission, mission.fleets[0], stretch, RepairAttempts(near, 0.678, None))
     assert found.help is not None
     assert "larger" in found.help
     assert "keeps 0.67 m" in found.notes[1]

@@ -11,7 +11,7 @@ from shotc.plugin_api import MovingLeg
 from shotc.plugin_api.refiner import Array, flying_times
 
 
-class Due(NamedTuple):
+class PlaceTimes(NamedTuple):
     """Places on the path that have a time, the start first; shapes (K,).
 
     s : path parameter
@@ -39,10 +39,10 @@ class Due(NamedTuple):
         return np.where(t <= known[-1], np.interp(t, known, self.t), after)
 
 
-def due(leg: MovingLeg) -> Due:
+def place_times(leg: MovingLeg) -> PlaceTimes:
     """Return the places of a moving leg that have a time."""
     s, t = np.array(flying_times(leg)).T
-    return Due(s, t)
+    return PlaceTimes(s, t)
 
 
 def unhurried(leg: MovingLeg) -> MovingLeg:
