@@ -109,6 +109,8 @@ def test_a_silent_mission_gets_the_emitters_that_suit_it() -> None:
         text = f"shotc: 1\nmission: m\nshots: [{{id: a, kind: {kind}, drone: cam}}]\n{output}"
         return emitters_of(MissionSpec.model_validate(yaml.safe_load(text)))
 
-    assert emitters("orbit") == ("csv", "mavlink", "storyboard", "rerun")
+    on_earth = "world: {origin: {lat: 47, lon: 8}}\n"
+    assert emitters("orbit", on_earth) == ("csv", "mavlink", "storyboard", "rerun")
+    assert emitters("orbit") == ("csv", "storyboard", "rerun")
     assert emitters("display") == ("csv", "skyc", "contact-sheet", "animatic", "rerun")
     assert emitters("display", "output: {emit: []}\n") == ()
