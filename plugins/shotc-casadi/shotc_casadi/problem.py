@@ -10,9 +10,9 @@ from scipy.interpolate import make_interp_spline
 
 from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import AimCondition
-from shotc_casadi.place_times import place_times
 from shotc_casadi.lens import is_free, lens_guess, lens_parameters, lens_state_bounds
 from shotc_casadi.margins import Margins
+from shotc_casadi.place_times import place_times
 from shotc_casadi.program import Problem
 from shotc_casadi.references import References, ShotContext, fields_of_view
 from shotc_casadi.stages import Stages

@@ -12,9 +12,9 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.conditions import AimCondition
 from shotc_casadi.covered import lost_on_path
-from shotc_casadi.place_times import place_times
 from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
+from shotc_casadi.place_times import place_times
 from shotc_casadi.references import ShotContext
 
 PROVED_M = 1e-6  # lack of clearance that a proof allows, metres

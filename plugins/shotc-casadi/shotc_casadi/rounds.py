@@ -13,11 +13,11 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import AimCondition
-from shotc_casadi.place_times import place_times, unhurried
 from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import first_margins, next_margins
 from shotc_casadi.horizon import Solver
 from shotc_casadi.margins import Check, Margins, tighter
+from shotc_casadi.place_times import place_times, unhurried
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
 from shotc_casadi.proof import checked, hopeless
