@@ -23,7 +23,9 @@ _SKYC_CODES = (
         "skyc-too-large",
         Severity.WARNING,
         "the show file is skipped, because it would have too many drones",
-        "Skybrush reads shows of at most 5000 drones. All other outputs are written.",
+        "Skybrush reads shows of at most 5000 drones: `MAX_DRONE_COUNT` of its loader, "
+        "`packages/show-format/src/constants.ts` of github.com/skybrush-io/skybrush.js. All other outputs are written; "
+        "`zipped-csv` and `vviz` hold any number.",
         "",
         "",
         "other",

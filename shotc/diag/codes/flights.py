@@ -89,7 +89,7 @@ CODES: tuple[CodeInfo, ...] = (
         "`timing.start` is when the first picture stands. Before that come take-off, straight up, and the way "
         "to the picture, or the display before it.",
         _PASSING,
-        ("start: 60", "start: 5"),
+        ("start: 60", "start: 20"),
     ),
     _planned(
         "D082",

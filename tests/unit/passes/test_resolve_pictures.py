@@ -98,13 +98,45 @@ def test_transitions_between_pictures_apart_take_time() -> None:
 
 def test_a_start_leaves_time_for_what_comes_before() -> None:
     text = show(display="    timing: {start: 4}\n")
-    d = only(text)  # 10 m at 2.5 m/s and 2.5 m/s^2: 10 / 2.5 + 1
+    # 10 m at 2.5 m/s and 2.5 m/s^2: 10 / 2.5 + 1, and 15 m more at 3 / 4 of that: 15 / 1.875 + 1
+    d = only(text)
     assert (d.code, marked(d, text)) == ("D020", "4")
-    assert "later than 5.0 s" in d.help
+    assert "later than 14.0 s" in d.help
     second = "  - {id: b, kind: display, fleet: swarm, timing: {start: 32}, frames: [" + SPHERE + "]}\n"
     text = show(SPHERE.replace("hold: 4", "hold: 13"), display="    timing: {start: 20}\n", more=second)
     assert "later than 33.0 s" in only(text).help
     assert faults(text.replace("start: 32", "start: 33")) == []
+
+
+@pytest.mark.parametrize(
+    ("pace", "transition", "earliest"),
+    [
+        # 60 m between the spheres: 60 / 3.75 + 3.75 / 1.875, after 14 s to the first and 4 s of it
+        ("", "", 14.0 + 4.0 + 18.0),
+        # at full limits 15 / 2.5 + 1 and 60 / 5 + 2
+        ("    pace: brisk\n", "", 12.0 + 4.0 + 14.0),
+        # a written duration may need all of the limits
+        ("", "transition: 14, ", 14.0 + 4.0 + 14.0),
+        ("", "transition: 25, ", 14.0 + 4.0 + 25.0),
+    ],
+)
+def test_a_picture_at_a_time_comes_after_the_way_at_its_pace(
+    pace: str, transition: str, earliest: float
+) -> None:
+    far = "{sphere: {center: [90, 0, 40], radius: 15}, %sat: %s, hold: 4}"
+    text = show(SPHERE, far % (transition, earliest - 0.1), display=pace)
+    d = only(text)
+    assert (d.code, marked(d, text)) == ("D123", f"{earliest - 0.1}")
+    assert f"take until {earliest:.1f} s at least" in d.notes[0]
+    assert faults(show(SPHERE, far % (transition, earliest), display=pace)) == []
+
+
+def test_a_recorded_flight_may_bring_its_take_off(tmp_path: Path) -> None:
+    flight = "    timing: {start: 2}\n    frames: {flight: a.zip}\n"
+    (tmp_path / "a.zip").write_bytes(b"tables")
+    text = re.sub(r"    frames:\n(      .*\n)+", flight, show())
+    assert flight in text
+    assert [d.code for d in faults(text, tmp_path)] == ["N009"]  # the file is no show; its start is well
 
 
 def test_displays_of_one_fleet_come_as_they_are_written() -> None:
@@ -118,10 +150,10 @@ def test_displays_of_one_fleet_come_as_they_are_written() -> None:
 
 def test_holds_beyond_the_endurance() -> None:
     text = show(SPHERE.replace("hold: 4", "hold: 800"))
-    d = only(text)  # and 5 s up, 5.8 s down
+    d = only(text)  # and 14 s to the picture, 5.8 s down
     assert (d.code, marked(d, text)) == ("D021", "swarm")
-    assert "at least 810.8 s, its endurance is 720.0 s" in d.notes[0]
-    assert faults(text.replace("separation: 2", "separation: 2, endurance: 811 s")) == []
+    assert "at least 819.8 s, its endurance is 720.0 s" in d.notes[0]
+    assert faults(text.replace("separation: 2", "separation: 2, endurance: 820 s")) == []
 
 
 def test_animations_count_their_periods(tmp_path: Path) -> None:

@@ -47,8 +47,9 @@ def too_large(mission: MissionIR, count: int) -> Diagnostic:
         "E112",
         f"the show file is skipped: {count} drones are more than the {MOST_DRONES} that one may have",
         tuple(mission.origins.key(fleet.path) for fleet in mission.fleets),
-        (),
-        f"fly fleets of no more than {MOST_DRONES} drones together, each from a mission of its own",
+        ("Skybrush refuses to load a larger one",),
+        f"fly fleets of no more than {MOST_DRONES} drones together, each from a mission of its own, or write "
+        "`--emit zipped-csv`, which holds any number",
     )
 
 

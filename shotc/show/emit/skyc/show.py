@@ -28,8 +28,9 @@ from shotc.show.emit.skyc.lights import programs
 Json = dict[str, Any]
 
 MOST_DRONES = 5000
-"""Most drones of a show file."""
-
+"""Most drones of a show file: the loader of skybrush.js refuses more (``MAX_DRONE_COUNT`` in its
+packages/show-format/src/constants.ts).
+"""
 
 STRAIGHT_M = 1.5e-4
 """Distance of inner control points from the thirds of a chord, below which the chord replaces

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Display, Fleet, Model, Picture
+from shotc.ir.show import Display, Fleet, Model, Picture, RecordedFlight
 from shotc.passes.resolve.checks.motion import least_travel
 from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST, waits_longer
 from shotc.planning.take_off import take_off_of
@@ -42,7 +42,7 @@ def check_clock(mission: MissionIR) -> list[Diagnostic]:
 def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
     """Yield transitions shorter than the transfer from one picture's box to the next one's."""
     for before, after in pairwise(display.pictures):
-        least = _between(before, after, fleet.limits)
+        least = _between(bounds(before.source), after, fleet.limits)
         if after.transition is None or after.transition >= least - ROUNDING_S:
             continue
         labels = (
@@ -63,9 +63,12 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
         yield Diagnostic("D019", message, labels, (note,), f"give it more than {shortest} s; {SHORTEST}")
 
 
-def _transfer(before: Picture, after: Picture) -> Vec3:
-    """Return the components of the shortest transfer from one picture's box to the next; 0 if unknown."""
-    one, other = bounds(before.source), bounds(after.source)
+_Box = tuple[Vec3, Vec3]
+"""Lower and upper corner of what surrounds a formation, metres."""
+
+
+def _transfer(one: _Box | None, other: _Box | None) -> Vec3:
+    """Return the components of the shortest transfer from one box to another; 0 if one is unknown."""
     if one is None or other is None:
         return (0.0, 0.0, 0.0)
     east, north, up = (
@@ -75,11 +78,11 @@ def _transfer(before: Picture, after: Picture) -> Vec3:
 
 
 def _gap(before: Picture, after: Picture) -> float:
-    return hypot(*_transfer(before, after))
+    return hypot(*_transfer(bounds(before.source), bounds(after.source)))
 
 
-def _between(before: Picture, after: Picture, limits: Limits) -> float:
-    return _last(after) + least_travel([(0.0, 0.0, 0.0), _transfer(before, after)], limits)
+def _between(before: _Box | None, after: Picture, limits: Limits) -> float:
+    return _last(after) + least_travel([(0.0, 0.0, 0.0), _transfer(before, bounds(after.source))], limits)
 
 
 def _last(picture: Picture) -> float:
@@ -87,9 +90,31 @@ def _last(picture: Picture) -> float:
     return 0.0 if picture.wave is None else picture.wave.time
 
 
-def _change(before: Picture, after: Picture, limits: Limits) -> float:
-    """Return the least time from the end of one picture to the start of the next, seconds."""
-    return max(after.transition or 0.0, _between(before, after, limits))
+def _change(before: _Box | None, after: Picture, how: _Drive) -> float:
+    """Return the least time of the way to a picture, seconds.
+
+    A way without a written duration is flown at the pace of its display.
+    """
+    if after.transition is None:
+        return _between(before, after, how.slowed())
+    return max(after.transition, _between(before, after, how.limits))
+
+
+class _Drive(NamedTuple):
+    """The limits of a fleet, and the pace of one of its displays."""
+
+    limits: Limits
+    pace: float
+
+    def slowed(self) -> Limits:
+        """Return the limits of ways without a written duration."""
+        limits, pace = self
+        return limits._replace(
+            speed=limits.speed * pace,
+            climb=limits.climb * pace,
+            descent=limits.descent * pace,
+            acceleration=limits.usable_acceleration * pace,
+        )
 
 
 class _Late(NamedTuple):
@@ -104,7 +129,7 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
     """Return the earliest end of a display that begins at a time, and its pictures that are late."""
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
-        clock += _stand(before) + _change(before, after, limits)
+        clock += _stand(before) + _change(bounds(before.source), after, _Drive(limits, display.pace))
         if after.at is not None and after.at < clock - ROUNDING_S:
             late.append(_Late(after, before, clock))
         clock = max(clock, after.at or 0.0)
@@ -123,7 +148,7 @@ def _begin(display: Display, limits: Limits) -> float | None:
         return display.start
     before = 0.0
     for one, other in pairwise(display.pictures):
-        before += _stand(one) + _change(one, other, limits)
+        before += _stand(one) + _change(bounds(one.source), other, _Drive(limits, display.pace))
         if other.at is not None:
             return other.at - before
     return None
@@ -182,7 +207,7 @@ def _after_camera(mission: MissionIR, display: Display) -> Diagnostic:
 
 
 class _Free(NamedTuple):
-    """When a fleet is free, and its picture at that time; None on its pads."""
+    """When a fleet is free, and its picture at that time; None over its pads."""
 
     time: float
     picture: Picture | None
@@ -191,14 +216,11 @@ class _Free(NamedTuple):
 def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Fleet]) -> list[Diagnostic]:
     """Return the faults of starts, from the earliest start and end of each display."""
     faults: list[Diagnostic] = []
-    free = {name: _Free(_rise_time(fleet), None) for name, fleet in fleets.items()}
+    free = {name: _Free(0.0, None) for name in fleets}
     ends: dict[str, float] = {}
     for display in order:
         limits, last = fleets[display.fleet].limits, free[display.fleet]
-        first = display.pictures[0]
-        there = last.time
-        if last.picture is not None:
-            there += _change(last.picture, first, limits)
+        there = _there(display, fleets[display.fleet], last)
         waits = ends.get(display.timing.after or "", 0.0)
         start = display.start
         if start is not None and start < max(there, waits) - ROUNDING_S:
@@ -214,6 +236,24 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
     return faults
 
 
+def _there(display: Display, fleet: Fleet, last: _Free) -> float:
+    """Return the earliest time at which a display's first picture stands, seconds."""
+    first, drive = display.pictures[0], _Drive(fleet.limits, display.pace)
+    if last.picture is not None:
+        return last.time + _change(bounds(last.picture.source), first, drive)
+    if isinstance(first.source, RecordedFlight):  # it may bring its own take-off
+        return last.time
+    return last.time + _rise_time(fleet) + _change(_over_pads(fleet), first, drive)
+
+
+def _over_pads(fleet: Fleet) -> _Box:
+    """Return the box about a fleet when all its drones have risen."""
+    up = take_off_of(fleet)
+    at = [(x, y, z + up.top(k)) for k, (x, y, z) in enumerate(fleet.pads)]
+    (west, east), (south, north), (low, high) = ((min(c), max(c)) for c in zip(*at, strict=True))
+    return (west, south, low), (east, north, high)
+
+
 def _rise_time(fleet: Fleet) -> float:
     return least_travel([(0.0, 0.0, 0.0), (0.0, 0.0, take_off_of(fleet).heights[0])], fleet.limits)
 
@@ -221,7 +261,7 @@ def _rise_time(fleet: Fleet) -> float:
 def _early(mission: MissionIR, display: Display, last: _Free, there: float, waits: float) -> Diagnostic:
     label = mission.origins.value(display.start_path)
     start = display.start or 0.0
-    why = f"its drones rise for {at_least(there, 1)} s at least"
+    why = f"its drones rise and fly to it for {at_least(there, 1)} s at least"
     if last.picture is not None:
         why = f"its fleet shows something else and changes over until {at_least(there, 1)} s at least"
     if waits > there:
@@ -251,14 +291,18 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         return
     limits = fleet.limits
     pictures = sum(least_display(d, limits) for d in shown)
-    changes = sum(_change(a.pictures[-1], b.pictures[0], limits) for a, b in pairwise(shown))
+    changes = sum(
+        _change(bounds(a.pictures[-1].source), b.pictures[0], _Drive(limits, b.pace))
+        for a, b in pairwise(shown)
+    )
     first, last = _begin(shown[0], limits), _begin(shown[-1], limits)
     if first is not None and last is not None:
         between = last - first + least_display(shown[-1], limits)
     else:
         between = 0.0
     down = least_travel([(0.0, 0.0, take_off_of(fleet).heights[0]), (0.0, 0.0, 0.0)], limits)
-    flight = max(pictures + changes, between) + _rise_time(fleet) + down
+    up = _there(shown[0], fleet, _Free(0.0, None))
+    flight = max(pictures + changes, between) + up + down
     if flight <= fleet.endurance:
         return
     labels = (
