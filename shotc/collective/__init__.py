@@ -23,7 +23,8 @@ return continues it.
 
 If several fleets, or groups of one, would meet on their returns, they choose one after another. Each takes
 the first way home that is clear of those before it. If there is none, it waits for a while at its rest.
-Cameras that film the show continue as planned, and the fleets keep clear of them in the same way.
+Cameras that film the show continue as planned, and the fleets keep clear of them in the same way. A product
+that burns when the show is called off burns on, and all fleets keep clear of it.
 
 Verification does not rely on these theorems. Every return is a trajectory of its own, of cubic B-splines as
 in a plan, and is verified as a plan is, at every instant: limits, zones, ground, targets, the nearest of all
@@ -40,8 +41,10 @@ from itertools import combinations, islice, permutations
 import numpy as np
 
 from shotc.collective.homing import WAITS_S, FleetReturn, Homing
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.fleets.apart import between
+from shotc.passes.verify.fleets.pyro import FleetSpline, burning_beside
 
 MOST_TURNS = 6
 """Most orders of fleets that are tried."""
@@ -51,7 +54,7 @@ MOST_TURNS = 6
 class Return:
     """The return of all fleets from one time, seconds.
 
-    between : claims on pairs of fleets
+    between : claims on pairs of fleets: their separation, and what burns on one beside the other
     """
 
     time: float
@@ -76,7 +79,7 @@ class Return:
     @property
     def nearest(self) -> Claim | None:
         """Return the claim on the nearest pair, relative to its separation."""
-        apart = [c for c in self.between if c.drones]
+        apart = [c for c in self.between if c.constraint.startswith("separation")]
         apart += [c for f in self.fleets for c in f.claims if c.constraint.startswith("separation")]
         return min(apart, key=lambda c: c.worst / c.limit, default=None)
 
@@ -147,21 +150,26 @@ def _clear(
     one: tuple[int, FleetReturn],
     other: tuple[int, FleetReturn],
 ) -> bool:
-    (i, fleet_return), (j, beside) = one, other
     mission = ir.keyframes.mission
-    flown = homings[i].flown(time, fleet_return), homings[j].flown(time, beside)
-    return between(mission, (mission.fleet(fleet_return.fleet), mission.fleet(beside.fleet)), *flown).holds
+    pair = (_flown(mission, time, homings[i], found) for i, found in (one, other))
+    return all(claim.holds for claim in _beside(mission, time, *pair))
 
 
 def _between(
     ir: TrajectoryIR, time: float, homings: list[Homing], fleets: tuple[FleetReturn, ...]
 ) -> list[Claim]:
-    """Return the claims on the separation of every two fleets during the whole return."""
-    if len(fleets) == 1:
-        return []
-    mission, claims = ir.keyframes.mission, []
-    flown = [homing.flown(time, fleet_return) for homing, fleet_return in zip(homings, fleets, strict=True)]
-    for i, j in combinations(range(len(fleets)), 2):
-        pair = mission.fleet(fleets[i].fleet), mission.fleet(fleets[j].fleet)
-        claims.append(between(mission, pair, flown[i], flown[j]))
-    return claims
+    """Return the claims on every two fleets during the whole return."""
+    mission = ir.keyframes.mission
+    flown = [_flown(mission, time, *pair) for pair in zip(homings, fleets, strict=True)]
+    return [claim for pair in combinations(flown, 2) for claim in _beside(mission, time, *pair)]
+
+
+def _flown(mission: MissionIR, time: float, homing: Homing, found: FleetReturn) -> FleetSpline:
+    return FleetSpline(mission.fleet(found.fleet), *homing.flown(time, found))
+
+
+def _beside(mission: MissionIR, time: float, one: FleetSpline, other: FleetSpline) -> Iterator[Claim]:
+    """Yield the claims on two fleets: their separation, and what burns on either beside the other."""
+    yield between(mission, (one.fleet, other.fleet), one[1:], other[1:])
+    yield from burning_beside(mission, one, other, time)
+    yield from burning_beside(mission, other, one, time)

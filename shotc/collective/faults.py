@@ -60,6 +60,8 @@ def _help(claim: Claim) -> str:
     lack = f"{at_least(abs(claim.worst - claim.limit))} {claim.unit}"
     if claim.constraint == "endurance":
         return f"show all until then {lack} sooner, or raise `endurance` by {lack} if the battery has it"
+    if claim.constraint.startswith("pyro "):
+        return f"it lacks {lack}: fire it at another moment, or show the pictures of the fleets farther apart"
     if claim.drones and claim.constraint.startswith("separation from"):
         return "put the pads of the fleets farther apart, or show their pictures one after the other"
     return f"it lacks {lack}: place its pictures or its pads elsewhere, or move what stands there"

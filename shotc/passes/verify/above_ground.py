@@ -10,12 +10,11 @@ from collections.abc import Iterator
 from math import inf, isfinite
 
 from shotc.geom.pieces import Pieces, cut
-from shotc.geom.proof import ProvedExtreme, inf_channel, sup_convex
+from shotc.geom.proof import inf_channel, sup_convex
 from shotc.geom.surface.distance import inf_distance
-from shotc.geom.surface.ground import NoGround
 from shotc.geom.surface.height import inf_height, sup_height
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, known, less
 
 
 def above_ground(flight: JudgedFlight, free: Pieces) -> Iterator[Claim]:
@@ -31,7 +30,7 @@ def above_ground(flight: JudgedFlight, free: Pieces) -> Iterator[Claim]:
         yield bounded(flight, limit, less(inf_channel(free, 2, aim), radius))
     else:
         low = inf_height(free, terrain.ground, aim)
-        yield bounded(flight, limit, less(_known(low, -inf), radius))
+        yield bounded(flight, limit, less(known(low, -inf), radius))
         near = inf_distance(free, terrain.ground.surface, gap(radius))
         body = Limit("distance from terrain", 0.0, "m", terrain.path, upper=False)
         yield bounded(flight, body, less(near, radius))
@@ -43,10 +42,5 @@ def above_ground(flight: JudgedFlight, free: Pieces) -> Iterator[Claim]:
     if terrain is None:
         high = sup_convex(pieces, lambda c: c[..., 2], most)
     else:
-        high = _known(sup_height(pieces, terrain.ground, most), inf)
+        high = known(sup_height(pieces, terrain.ground, most), inf)
     yield bounded(flight, limit, high)
-
-
-def _known(bound: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
-    """Return a bound; where the flight leaves the terrain, one that proves nothing."""
-    return ProvedExtreme(unknown, unknown, bound.at) if isinstance(bound, NoGround) else bound

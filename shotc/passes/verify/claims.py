@@ -6,11 +6,12 @@ a micrometre, a microradian). Bounds are closed to half of that gap.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 
 from shotc.geom.proof import ProvedExtreme
+from shotc.geom.surface.ground import NoGround
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
@@ -98,6 +99,25 @@ def held(subject: str, limit: Limit, worst: WorstValue, drones: tuple[str, ...] 
 def bounded(flight: JudgedFlight, limit: Limit, bound: ProvedExtreme) -> Claim:
     """Return the claim of a proven bound against a limit."""
     return claim(flight, limit, WorstValue(bound.proven, bound.at))
+
+
+def first_least(bounds: Sequence[ProvedExtreme], gap: Callable[[float], float]) -> ProvedExtreme:
+    """Return the least of several bounds, with the time of the first that is as small.
+
+    Bounds within ``gap`` of the least count as equal: which of them is smaller depends on rounding.
+    """
+    least = min(bounds, key=lambda bound: bound.proven)
+    room = gap(least.proven) if isfinite(least.proven) else 0.0
+    first = next(bound for bound in bounds if bound.proven <= least.proven + room)
+    return ProvedExtreme(least.proven, least.attained, first.at)
+
+
+def known(found: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
+    """Return a bound; where somebody leaves the terrain, one that proves nothing.
+
+    unknown : minus infinity for a least value, infinity for a largest one
+    """
+    return ProvedExtreme(unknown, unknown, found.at) if isinstance(found, NoGround) else found
 
 
 def less(bound: ProvedExtreme, radius: float) -> ProvedExtreme:

@@ -18,7 +18,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.ir.transits import TransitInterval, ways
-from shotc.passes.verify.claims import gap, slack
+from shotc.passes.verify.claims import first_least, gap, slack
 from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
 
@@ -68,7 +68,10 @@ def reported_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Dia
 
 
 def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
-    """Return where a flight breaks a claim, one entry per transfer, the worst first."""
+    """Return where a flight breaks a claim, one entry per transfer, the worst first.
+
+    Of equally bad ones the first in time is first.
+    """
     mission, name = ir.keyframes.mission, claim.constraint.removesuffix(ENDING)
     track = next(t for t in ir.drones if t.drone == claim.subject)
     solid, path, curve, counts_from = _solid(mission, name, track)
@@ -85,8 +88,12 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
         has = distance(solid, (x, y, z))
         passed = ClosestPass(f"{kind} `{own}`", path, interval, bound.at, has - radius, float(needs) - radius)
         passed = passed._replace(least=least.proven - radius, counts_from=counts_from)
-        passes.append((bound.proven, passed))
-    return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
+        passes.append((bound, passed))
+    if not passes:
+        return []
+    first = first_least([bound for bound, _ in passes], gap(claim.limit + radius)).at
+    worst_first = sorted(passes, key=lambda pair: (pair[0].at != first, pair[0].proven))
+    return [one for _, one in worst_first]
 
 
 class _Named(NamedTuple):

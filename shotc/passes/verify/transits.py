@@ -19,7 +19,7 @@ from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import SolidClearance, TransitInterval, from_target, from_zones, ways
-from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, first_least, gap, less
 
 ENDING = " on transits"
 """Ending of these claims."""
@@ -44,9 +44,9 @@ def _kept(
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
     bounds = [on_way(near, clearance, interval) for interval in ways(flight.track.phases)]
-    worst = min(bounds, key=lambda bound: bound.proven, default=None)
-    if worst is None or worst.proven == inf:
+    if not bounds or all(bound.proven == inf for bound in bounds):
         return
+    worst = first_least(bounds, gap(clearance))
     path = ("rules", "transit_clearance", apart.key)
     limit = Limit(name + ENDING, apart.metres, "m", path, upper=False, hard=apart.required)
     yield bounded(flight, limit, less(worst, flight.drone.radius))

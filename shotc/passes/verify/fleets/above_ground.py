@@ -13,13 +13,13 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces
-from shotc.geom.proof import ProvedExtreme, inf_channel, sup_convex
-from shotc.geom.surface.ground import NoGround, height_at
+from shotc.geom.proof import inf_channel, sup_convex
+from shotc.geom.surface.ground import height_at
 from shotc.geom.surface.height import inf_height, sup_height
 from shotc.geom.surface.near import nearest
 from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Limit, gap, less
+from shotc.passes.verify.claims import Limit, gap, known, less
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.fleets.surfaces import near_surface, once
 
@@ -38,7 +38,7 @@ def above_ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
         yield bounded(flight, limit, less(inf_channel(every, 2, aim), radius), lambda p: p[:, 2])
     else:
         every = once(every)
-        low = _known(inf_height(every, terrain.ground, aim), -inf)
+        low = known(inf_height(every, terrain.ground, aim), -inf)
         yield bounded(flight, limit, less(low, radius), _over(terrain, -inf))
         yield _beside(flight, every, terrain)
     most = rules.max_height
@@ -49,7 +49,7 @@ def above_ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
         high = sup_convex(every, lambda c: c[..., 2], gap(most))
         yield bounded(flight, limit, high, lambda p: p[:, 2])
     else:
-        high = _known(sup_height(every, terrain.ground, gap(most)), inf)
+        high = known(sup_height(every, terrain.ground, gap(most)), inf)
         yield bounded(flight, limit, high, _over(terrain, inf))
 
 
@@ -68,8 +68,3 @@ def _over(terrain: Terrain, unknown: float) -> Callable[[Array], Array]:
         return np.where(np.isnan(height), unknown, p[:, 2] - np.nan_to_num(height))
 
     return over
-
-
-def _known(bound: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
-    """Return a bound, or where somebody leaves the terrain one that holds nothing."""
-    return ProvedExtreme(unknown, unknown, bound.at) if isinstance(bound, NoGround) else bound

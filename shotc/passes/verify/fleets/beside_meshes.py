@@ -19,7 +19,7 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap, less
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded, worse
-from shotc.passes.verify.fleets.surfaces import near_surface, once
+from shotc.passes.verify.fleets.surfaces import near_surface, once, outside_of_mesh
 
 Upright = list[tuple[FleetPieces, Array]]
 
@@ -35,23 +35,18 @@ def beside_meshes(flight: FleetFlight, free: FleetPieces, upright: Upright) -> I
         name, body = f"distance from {mesh.kind}", flight.fleet.radius + mesh.spacing
         if len(free.low):
             limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
-            yield _clear(flight, limit, (mesh, body), free)
+            yield _clear(flight, limit, mesh, free)
         if upright:
             limit = Limit(f"{name} at home", 0.0, "m", mesh.path, upper=False)
             yield worse(limit, [_at_home(flight, limit, (mesh, body), part) for part in upright])
 
 
-def _clear(flight: FleetFlight, limit: Limit, of: tuple[ObstacleMesh, float], free: FleetPieces) -> Claim:
+def _clear(flight: FleetFlight, limit: Limit, mesh: ObstacleMesh, free: FleetPieces) -> Claim:
     """Claim a distance of all drones; one that begins inside of something is inside of it."""
-    mesh, body = of
-    inside = mesh.holds(flight.pads)
-    if inside.any():
-        deep = mesh.signed_distance(flight.pads)
-        at = float(free.low[0])
-        bound = ProvedExtreme(float(deep.min()), float(deep.min()), at)
-        return bounded(flight, limit, less(bound, body), lambda _: deep)
-    bound = near_surface(once(free.bag()), mesh.surface, gap(body + limit.value))
-    return bounded(flight, limit, less(bound, body), mesh.signed_distance)
+    start = float(flight.track.breaks[0]), flight.pads
+    radius = flight.fleet.radius
+    bound = outside_of_mesh(free, start, mesh, radius + limit.value)
+    return bounded(flight, limit, less(bound, radius), mesh.signed_distance)
 
 
 def _at_home(

@@ -15,15 +15,15 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.proof import ProvedExtreme
-from shotc.geom.surface.ground import NoGround, height_at
+from shotc.geom.surface.ground import height_at
 from shotc.geom.surface.height import inf_height
 from shotc.geom.surface.near import nearest
 from shotc.ir.limits import Vec3
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.terrain import Terrain
-from shotc.passes.verify.claims import gap, less
+from shotc.passes.verify.claims import gap, known
 from shotc.passes.verify.fleets.flight import FleetFlight, Span
-from shotc.passes.verify.fleets.surfaces import near_surface, once
+from shotc.passes.verify.fleets.surfaces import near_surface, once, outside_of_mesh
 
 PYRO = "pyro "
 """Prefix of constraints on products."""
@@ -59,7 +59,7 @@ def near_surfaces(flight: FleetFlight, rows: Sequence[int], span: Span, least: f
         of = _of_terrain(burning, terrain, least)
         yield _nearest_drone(flight, rows, (GROUND, of), lambda p: _from_terrain(terrain, p))
     for mesh in flight.mission.meshes:
-        bound = _of_mesh(burning, mesh, least)
+        bound = outside_of_mesh(burning, (float(burning.low[0]), burning.ctrl[:, 0, 0]), mesh, least)
         yield _nearest_drone(flight, rows, (from_mesh(mesh), bound), mesh.signed_distance)
 
 
@@ -78,9 +78,7 @@ def _over_flat_ground(burning: FleetPieces, rows: Sequence[int]) -> Near:
 def _of_terrain(burning: FleetPieces, terrain: Terrain, least: float) -> ProvedExtreme:
     """Bound the distance from terrain: below it the negative depth, beyond it minus infinity."""
     pieces = once(burning.bag())
-    height = inf_height(pieces, terrain.ground, gap(least))
-    if isinstance(height, NoGround):
-        return ProvedExtreme(-inf, -inf, height.at)
+    height = known(inf_height(pieces, terrain.ground, gap(least)), -inf)
     return height if height.proven < 0.0 else near_surface(pieces, terrain.ground.surface, gap(least))
 
 
@@ -89,19 +87,6 @@ def _from_terrain(terrain: Terrain, p: Array) -> Array:
     height = p[:, 2] - height_at(terrain.ground, p[:, :2])
     above = np.where(height < 0.0, height, nearest(terrain.ground.surface, p).distance)
     return np.where(np.isnan(height), -inf, above)
-
-
-def _of_mesh(burning: FleetPieces, mesh: ObstacleMesh, least: float) -> ProvedExtreme:
-    """Bound the distance from a mesh: a drone that begins inside of something, or enters it, has none.
-
-    A point of a cloud stands for a ball of half its spacing, which is taken off the distance.
-    """
-    first = burning.ctrl[:, 0, 0]
-    if mesh.holds(first).any():
-        deep = float(mesh.signed_distance(first).min())
-        return ProvedExtreme(deep, deep, float(burning.low[0]))
-    bound = near_surface(once(burning.bag()), mesh.surface, gap(least + mesh.spacing))
-    return less(bound, mesh.spacing)
 
 
 def _nearest_drone(

@@ -6,19 +6,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.fleet_spline import pieces
 from shotc.geom.proof import ProvedExtreme
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies, parked_fleets
-from shotc.ir.show import Display, PyroCue, rows_of
+from shotc.ir.show import Display, Fleet, PyroCue, drone_names, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.burning import PYRO, Near, near_surfaces
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
+
+
+class FleetSpline(NamedTuple):
+    """The flight of a fleet: breaks, shape (P + 1,), s, and control points (n, P + 3, 3), metres."""
+
+    fleet: Fleet
+    breaks: Array
+    coef: Array
 
 
 def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -38,6 +48,30 @@ def still_burning(ir: TrajectoryIR, flight: FleetFlight, called_off: float) -> I
             yield from _cue(ir, [flight], replace(product, begin=called_off))
 
 
+def burning_beside(
+    mission: MissionIR, burning: FleetSpline, other: FleetSpline, called_off: float
+) -> Iterator[Claim]:
+    """Yield the claims for products that burn when a show is called off, beside another fleet.
+
+    burning, other : both fleets from that time on, s
+    """
+    fleet, breaks, coef = burning
+    names, own = drone_names(fleet), pieces(breaks, coef)
+    for _, cue, name in _cues(mission, fleet):
+        span = (called_off, min(cue.end, float(breaks[-1])))
+        if not cue.ignition < called_off < span[1]:
+            continue
+        beside = other.breaks, pieces(other.breaks, other.coef)
+        bounds = {
+            row: nearest(Piecewise(breaks, own[row]), *beside, span, cue.clear) for row in rows_of(fleet, cue)
+        }
+        row = min(bounds, key=lambda row: bounds[row].proven)
+        constraint = f"{name} from drones of {other.fleet.name}"
+        limit = Limit(constraint, cue.clear, "m", (*cue.path, "clear"), upper=False)
+        worst = WorstValue(bounds[row].proven, bounds[row].at, "bounded")
+        yield held(fleet.name, limit, worst, (names[row],))
+
+
 def burning_at(mission: MissionIR, fleet: str, time: float) -> bool:
     """Tell whether a product of a fleet burns at a time, s."""
     cues = (cue for d in mission.displays if d.fleet == fleet for cue in d.pyro)
@@ -45,9 +79,22 @@ def burning_at(mission: MissionIR, fleet: str, time: float) -> bool:
 
 
 def _products(flight: FleetFlight) -> Iterator[_Burning]:
-    for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
+    for display, cue, name in _cues(flight.mission, flight.fleet):
+        yield _Burning(flight, display, cue, name, cue.ignition)
+
+
+class _NamedCue(NamedTuple):
+    """A cue of a display, and its name in claims."""
+
+    display: Display
+    cue: PyroCue
+    name: str
+
+
+def _cues(mission: MissionIR, fleet: Fleet) -> Iterator[_NamedCue]:
+    for display in (d for d in mission.displays if d.fleet == fleet.name):
         for index, cue in enumerate(display.pyro):
-            yield _Burning(flight, display, cue, f"{PYRO}{index + 1} {cue.product}", cue.ignition)
+            yield _NamedCue(display, cue, f"{PYRO}{index + 1} {cue.product}")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
