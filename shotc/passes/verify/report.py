@@ -16,6 +16,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.energy import energy_note
+from shotc.passes.verify.fleets.pyro_advice import pyro_advice
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
@@ -86,9 +87,6 @@ RULES = {
     "reference off its composition": Rule("V024", help=REPLAN),
 }
 
-PYRO_HELP = "fire it at another moment or from other drones, or one that asks for less `clear`"
-ALOFT_HELP = "have it burn between take-off and landing: give it another `at`, or a shorter `duration`"
-
 STARTING = {
     "zone ": Rule("V007"),
     "target ": Rule("V010"),
@@ -96,14 +94,14 @@ STARTING = {
     "drift at ": Rule("V016", help=REPLAN),
     "separation ": Rule("V022"),
     "lights outside ": Rule("V057"),
-    "pyro ": Rule("V059", help=PYRO_HELP),
+    "pyro ": Rule("V059"),
     "distance from scene": Rule("V052"),
     "distance from buildings": Rule("V052"),
 }
 
 ENDING = {
     PASSED: Rule("V035"),
-    " outside the flight": Rule("V059", help=ALOFT_HELP),
+    " outside the flight": Rule("V059"),
     " in frame": Rule("V019"),
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
@@ -188,7 +186,7 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         message = f"{_who(claim)}: {state_of(claim, rule.code)}"
         causes = [wind_note(mission, claim), energy_note(claim, certificate)]
         notes += filter(None, [*causes, *nearest_part(mission, claim)])
-        help_ = advice(mission, claim, rule, phase)
+        help_ = pyro_advice(ir, claim) if rule.code == "V059" else advice(mission, claim, rule, phase)
     limit = f"{side_of(claim)} {distinct_measures(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
     return Diagnostic(rule.code, message, labels, tuple(notes), help_)

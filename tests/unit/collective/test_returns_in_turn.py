@@ -9,11 +9,30 @@ import pytest
 
 from shotc import collective
 from shotc.collective import collective_returns
+from shotc.geom.fleet_spline import places
 from tests.support.compiled import compiled_text
 from tests.support.grouped_shows import ACROSS, CROSSING, least_between
 
 pytestmark = pytest.mark.slow
 AT_S = 92.0
+FLARE = """\
+shotc: 1
+mission: flare
+fleets:
+  solo: {count: 1, layout: {grid: {spacing: 3, origin: [40, 30, 0]}}, separation: 2}
+  swarm: {count: 4, layout: {grid: {spacing: 4, origin: [0, 0, 0]}}, separation: 2}
+shots:
+  - id: star
+    kind: display
+    fleet: solo
+    frames: [{sphere: {center: [2, 30, 20], radius: 1}, at: 40 s, hold: 30}]
+    pyro: [{at: 45 s, drones: [1], product: flare, duration: 12 s, clear: 12 m}]
+  - id: ball
+    kind: display
+    fleet: swarm
+    frames: [{sphere: {center: [2, 56, 20], radius: 4}, at: 40 s, hold: 30}]
+"""
+"""The way home of the swarm leads below the other fleet's drone, whose flare burns until 57 s."""
 
 
 def test_groups_whose_ways_home_cross_give_way_to_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -33,3 +52,24 @@ def test_groups_whose_ways_home_cross_give_way_to_each_other(monkeypatch: pytest
     alone = next(r for r in collective_returns(plan, AT_S, lambda _: None) if r.time == AT_S)
     assert not alone.holds
     assert {claim.constraint for claim in alone.broken} == {"separation from swarm/ring"}
+
+
+def test_a_fleet_on_its_way_home_keeps_clear_of_what_burns_on_another(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plan, time = compiled_text(FLARE).plan, 46.0
+    assert plan is not None
+
+    def nearest() -> float:
+        found = next(r for r in collective_returns(plan, time, lambda _: None) if r.time == time)
+        assert found.holds
+        times = np.linspace(time, 57.0, 600)
+        solo, swarm = (places(way.track.breaks, way.track.coef, times) for way in found.fleets if way.track)
+        least = float(np.linalg.norm(solo - swarm, axis=-1).min())
+        for claim in found.between:
+            assert claim.worst <= least + 1e-3
+        return least
+
+    assert nearest() >= 12.0
+    monkeypatch.setattr(collective, "burning_beside", lambda *_: iter(()))
+    assert nearest() < 8.0

@@ -38,6 +38,13 @@ def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
             yield from _cue(ir, flights, product)
 
 
+def cue_claims(
+    ir: TrajectoryIR, flights: Sequence[FleetFlight], flight: FleetFlight, display: Display, cue: PyroCue
+) -> Iterator[Claim]:
+    """Yield those claims for one cue of a display, which may differ from the mission's."""
+    yield from _cue(ir, flights, _Burning(flight, display, cue, f"{PYRO}{cue.product}", cue.ignition))
+
+
 def still_burning(ir: TrajectoryIR, flight: FleetFlight, called_off: float) -> Iterator[Claim]:
     """Yield those claims for products that burn when a show is called off; later ones are not lit.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,7 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.show import PyroCue
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from tests.support.few import examples
-from tests.support.show_plans import display, flight, mission
+from tests.support.show_plans import display, fleet, flight, mission
 from tests.support.standing_worlds import SIDE, STEP, from_box, height_over, house, ridge, terrain
 from tests.support.surfaces import Grid, grid
 from tests.support.terrain_missions import relief
@@ -144,3 +145,37 @@ def test_no_sample_is_nearer_than_what_is_proved(seed: int, height: float) -> No
     assert claims[BUILDINGS].worst <= near + 1e-9
     if near > 0.05:
         assert claims[BUILDINGS].worst == pytest.approx(near, abs=0.02)
+
+
+def one_cue(cue: PyroCue, pads: tuple[tuple[float, float, float], ...], **world: object) -> MissionIR:
+    shown = display()._replace(pyro=(cue,))
+    return mission(fleets=(fleet(pads),), displays=(shown,), **world)
+
+
+def test_a_moment_that_would_do_is_given_and_does() -> None:
+    """The drone is 10 m over the plateau in the first picture, and 12 m in the second, until 28 s."""
+    cue = PyroCue(18.0, (1,), "fountain", 1.5, 11.5, 0.0, 0.0, 0.0, ("shots", 0))
+    asked = one_cue(cue, ((8.0, 0.0, 0.0),), terrain=terrain(plateau(20.0)))
+    _, (fault,) = judged(asked)
+    found = re.match(r"write `at: ([\d.]+) s`, or write `clear: 10 m` if", fault.help)
+    assert found is not None, fault.help
+    moment = float(found[1])
+    assert 18.0 < moment <= 26.5
+    again = cue._replace(time=moment)
+    assert judged(one_cue(again, ((8.0, 0.0, 0.0),), terrain=terrain(plateau(20.0))))[1] == []
+
+
+def test_drones_that_would_do_are_given_and_do() -> None:
+    """A house is 5 m from the first of two drones, and 25 m from the other."""
+    built = (house((-7.5, 20.0, 20.0), (5.0, 20.0, 40.0)),)
+    cue = PyroCue(18.0, (1,), "fountain", 9.0, 12.0, 0.0, 0.0, 0.0, ("shots", 0))
+    pads = ((0.0, 0.0, 0.0), (20.0, 0.0, 0.0))
+    told = judged(one_cue(cue, pads, meshes=built))[1]
+    assert [fault.help.split("`")[1] for fault in told] == ["drones: [2]"]
+    assert judged(one_cue(cue._replace(drones=(2,)), pads, meshes=built))[1] == []
+
+
+def test_what_burns_on_the_ground_is_told_when_it_may_burn() -> None:
+    cue = PyroCue(2.0, (1,), "fountain", 5.0, 50.0, 1.0, 0.0, 0.0, ("shots", 0))
+    _, (fault,) = judged(one_cue(cue, ((8.0, 0.0, 0.0),)))
+    assert fault.help == "have it burn in the air: `at` between 9.00 s and 33.00 s"
