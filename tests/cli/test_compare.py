@@ -136,6 +136,7 @@ def reads_back(recording: Path) -> None:
     assert not any("failing" in entity for entity in moving | still)
 
 
+@pytest.mark.long
 def test_what_is_written_is_the_same_every_time(run: Run, yard: Path, install: Install) -> None:
     install("bent", *BENT)
     for folder in ("one", "two"):

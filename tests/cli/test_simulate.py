@@ -135,6 +135,7 @@ def test_what_too_few_runs_keep_is_an_error_at_its_line(run: Run, given) -> None
     assert not document()["kept"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_what_the_help_proposes_is_kept(run: Run, given) -> None:
     first = run("simulate", given(asking(RehearsalPromise(mean_error=0.0, clearance=1000.0))))
@@ -181,6 +182,7 @@ def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
     assert document("out/walker")["conditions"]["loop"] == "track"
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_a_target_may_really_go_elsewhere(run: Run, given) -> None:
     Path("late.csv").write_text("t,x,y,z\n0,0,0,0.9\n60,66,6,0.9\n")
@@ -279,6 +281,7 @@ def test_gusts_take_from_the_separation(run: Run, show: str) -> None:
     assert max(one, other) < 4.0
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_a_show_says_that_it_feels_no_steady_wind_and_refuses_one_above_its_speed(run: Run, show) -> None:
     done = run("simulate", show, "--seeds", "1", "--wind", "1")

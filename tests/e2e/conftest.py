@@ -108,10 +108,19 @@ def plan() -> Plan:
     return planned
 
 
-def each_mission() -> list[object]:
-    """Return all missions as parameters; with ``--dist loadgroup`` one process has all tests of a mission."""
-    marks = [(pytest.mark.slow, pytest.mark.xdist_group(path.stem)) for path in MISSIONS]
-    return [pytest.param(path, id=path.stem, marks=m) for path, m in zip(MISSIONS, marks, strict=True)]
+def each_mission(long: Callable[[Path], bool] = lambda _: False) -> list[object]:
+    """Return all missions as parameters; with ``--dist loadgroup`` one process has all tests of a mission.
+
+    long : whether what is asked of a mission takes a second
+    """
+    return [
+        pytest.param(
+            path,
+            id=path.stem,
+            marks=[pytest.mark.long if long(path) else pytest.mark.slow, pytest.mark.xdist_group(path.stem)],
+        )
+        for path in MISSIONS
+    ]
 
 
 @pytest.fixture(scope="session")

@@ -69,7 +69,7 @@ def test_a_mission_comes_from_standard_input(place: Path) -> None:
         assert (place / "piped" / name).read_bytes() == (place / "out" / "small" / name).read_bytes()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_rejected_mission_writes_nothing(place: Path) -> None:
     (place / "wrong.yaml").write_text(WRONG)
     before = content(place / "out" / "small")

@@ -14,7 +14,7 @@ from tests.support.scene_missions import feature, geojson, square
 from tests.support.standing_worlds import from_box, height_over, ridge
 from tests.support.terrain_missions import table
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 CREST = 60.0
 TOWER = (60.0, 0.0, 25.0), (30.0, 30.0, 50.0)

@@ -25,6 +25,15 @@ from tests.support.resealed_plans import resealed
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("groups")]
 
 
+ALONE = """\
+shotc: 1
+mission: alone
+fleets: {swarm: {count: 4, layout: {grid: {spacing: 4}}, separation: 2 m}}
+shots:
+  - {id: cube, kind: display, fleet: swarm, frames: [{cube: {center: [6, 6, 26], size: 9}, hold: 4}]}
+"""
+
+
 @pytest.fixture(scope="module")
 def plan() -> VerifiedIR:
     found = compiled_text(TEXT)
@@ -62,14 +71,14 @@ def test_no_two_drones_of_different_groups_come_too_near_at_any_of_many_times(pl
     assert names == {"separation", "separation from swarm/fire", "separation from swarm/ring"}
 
 
+@pytest.mark.long
 def test_ways_that_nobody_asked_for_are_changed_and_that_is_told(
     plan: VerifiedIR, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert any("another one is in its way" in told for told in beside(plan.trajectory.stats))
     monkeypatch.setattr(assignment, "beside", lambda *_: [])
-    compiled_text.cache_clear()
-    refused = next(d for d in compiled_text(TEXT).diagnostics if d.code == "D087")
-    compiled_text.cache_clear()
+    done = api.compile_source(TEXT.encode(), "mission.yaml", None, api.PlanOptions())
+    refused = next(d for d in done.diagnostics if d.code == "D087")
     assert "`swarm/" in refused.message
     assert len(refused.labels) == 2
 
@@ -86,6 +95,7 @@ def test_the_plan_is_proved_again_from_its_bytes(plan: VerifiedIR) -> None:
     assert {d.code for d in api.verify_plan(resealed(document), "plan.json").diagnostics} == {"V041"}
 
 
+@pytest.mark.long
 def test_the_command_says_who_draws_what(tmp_path: Path) -> None:
     (tmp_path / "show.yaml").write_text(TEXT)
     done = run("plan", "show.yaml", "--output", "out", "--emit", "skyc", folder=tmp_path)
@@ -96,12 +106,13 @@ def test_the_command_says_who_draws_what(tmp_path: Path) -> None:
 
 
 def test_compare_has_nothing_to_compare_without_a_camera(tmp_path: Path) -> None:
-    (tmp_path / "show.yaml").write_text(TEXT)
+    (tmp_path / "show.yaml").write_text(ALONE)
     done = run("compare", "show.yaml", folder=tmp_path)
     assert (done.code, done.out) == (2, "")
     assert "no camera films in it" in done.err
 
 
+@pytest.mark.long
 def test_all_groups_come_home_from_any_time_and_meet_nobody(plan: VerifiedIR) -> None:
     found = collective_returns(plan, 4.0, lambda _: None)
     assert len(found) > 20

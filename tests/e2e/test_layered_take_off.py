@@ -27,7 +27,7 @@ shots:
 
 EMIT = ("--emit", "csv,skyc,zipped-csv")
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

@@ -58,7 +58,7 @@ def test_what_fades_to_black_is_black() -> None:
     assert level.tolist() == [235, pytest.approx(117, abs=4), pytest.approx(0, abs=6), 0]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_plan_read_back_has_the_same_lights_and_plays_them() -> None:
     plan = planned()
     data = plan_bytes(plan)

@@ -172,6 +172,7 @@ def test_every_control_point_counts(plan: Plan, channel: int) -> None:
         assert "V" in {d.code[0] for d in report.diagnostics}
 
 
+@pytest.mark.long
 def test_every_break_counts_where_the_drone_moves(plan: Plan) -> None:
     source = plan(TOWER).files["plan.json"]
     curve = plan(TOWER).track.curve

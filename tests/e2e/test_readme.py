@@ -48,7 +48,7 @@ def test_the_show_is_the_template_and_plans_without_a_warning():
     assert done.plan is not None
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_answer_to_an_impossible_duration_is_what_it_says():
     """The block shows what `shotc plan` prints of the first mission with eighteen seconds for the shot."""
     from shotc.diag.render.text import render

@@ -85,6 +85,7 @@ def test_what_we_write_is_flown_again_at_its_times_in_its_colours(emitter: objec
     assert [phase.name for phase in other.phases] == ["takeoff", "shot", "land"]
 
 
+@pytest.mark.long
 def test_one_that_is_three_times_too_fast_takes_longer_on_the_same_ways(tmp_path: Path) -> None:
     legal = planned(tmp_path, "slow.zip", csv_show(flown(60.0), 60.0, 8.0))
     assert codes(legal) == []

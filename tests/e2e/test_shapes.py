@@ -83,6 +83,7 @@ def test_the_van_before_the_church_is_in_frame_at_every_instant() -> None:
     assert b",church,church," in data
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("old", "new", "rule"),
     [

@@ -67,6 +67,7 @@ def test_the_contact_sheet_is_a_picture(show: Show) -> None:
     assert (picture[..., :3].max(axis=2) < 0.25).mean() > 0.2  # it is night
 
 
+@pytest.mark.long
 def test_the_plan_is_proved_from_its_bytes(show: Show) -> None:
     done = run("verify", "out", "--format", "json", folder=show.folder)
     assert done.code == 0
@@ -75,6 +76,7 @@ def test_the_plan_is_proved_from_its_bytes(show: Show) -> None:
     assert len(report["certificate"]) == len(show.document["certificate"])
 
 
+@pytest.mark.long
 def test_a_second_run_gives_the_same_bytes(show: Show) -> None:
     done = run("plan", LAKE.name, "-o", "again", "--emit", "csv", "--jobs", "1", folder=show.folder)
     assert done.code == 0
@@ -82,6 +84,7 @@ def test_a_second_run_gives_the_same_bytes(show: Show) -> None:
         assert (show.folder / "again" / name).read_bytes() == show.bytes(name), name
 
 
+@pytest.mark.long
 def test_a_drone_moved_by_hand_is_noticed(show: Show) -> None:
     """Two drones are put near each other in the middle of a picture."""
     document = json.loads(show.bytes("plan.json"))
@@ -264,6 +267,7 @@ def test_the_show_file_flies_the_plan(show: Show) -> None:
         assert color_at(code, (stands["start"] + stands["end"]) / 2) == color
 
 
+@pytest.mark.long
 def test_drones_that_lag_and_are_blown_about_keep_what_is_asked(show: Show) -> None:
     """Without the margin, which is there to be used up."""
     options = ("--gusts", "0.3", "--seeds", "1", "-o", "flown", "--format", "json")

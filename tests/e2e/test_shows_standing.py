@@ -65,6 +65,7 @@ def hilly(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.long
 def test_the_fleet_stands_on_the_ground_and_rises_over_the_ridge(hilly: Path) -> None:
     at, pads = flown(hilly)
     shape = ridge(CREST)
@@ -73,6 +74,7 @@ def test_the_fleet_stands_on_the_ground_and_rises_over_the_ridge(hilly: Path) ->
     assert at[..., 2].max() > CREST + 2.0
 
 
+@pytest.mark.long
 def test_the_plan_is_proved_again_from_its_file_and_against_its_mission(hilly: Path) -> None:
     done = run("verify", "out/plan.json", "--against", "over.yaml", folder=hilly)
     assert done.code == 0, done.err
@@ -84,11 +86,13 @@ def test_the_plan_is_proved_again_from_its_file_and_against_its_mission(hilly: P
     assert "terrain is another" in other.err
 
 
+@pytest.mark.long
 def test_collective_returns_rise_over_the_ridge_too(hilly: Path) -> None:
     done = run("verify", "out/plan.json", "--abort-every", "20s", folder=hilly)
     assert done.code == 0, done.err + done.out
 
 
+@pytest.mark.long
 def test_pads_on_a_slope_stand_at_their_own_heights(tmp_path: Path) -> None:
     shape = relief(3, 25.0)
     (tmp_path / "relief.csv").write_text(table(shape))
@@ -102,6 +106,7 @@ def test_pads_on_a_slope_stand_at_their_own_heights(tmp_path: Path) -> None:
     assert height_over(shape, at).min() >= 2.25 - 1e-6
 
 
+@pytest.mark.long
 def test_beside_a_tower_the_fleet_keeps_the_obstacle_clearance(tmp_path: Path) -> None:
     tower = feature(square(60, 0, 30), "way/1", building="yes", height="50", name="Tower")
     (tmp_path / "houses.geojson").write_bytes(geojson(tower))
@@ -139,6 +144,7 @@ BAD = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BAD)
 def test_bad_input_is_a_diagnostic_with_a_way_out(name: str, tmp_path: Path) -> None:
     written, code, words = BAD[name]
@@ -151,6 +157,7 @@ def test_bad_input_is_a_diagnostic_with_a_way_out(name: str, tmp_path: Path) -> 
     assert "Traceback" not in done.err
 
 
+@pytest.mark.long
 def test_a_fleet_on_either_side_of_a_cliff_is_planned_clear_of_it(tmp_path: Path) -> None:
     shape = cliff(12.0, 32)  # the plain ends at x = 10 m, the plateau begins at x = 20 m
     (tmp_path / "cliff.csv").write_text(table(shape))

@@ -92,6 +92,7 @@ def test_ardupilot_takes_off_by_itself_and_is_taken_over_above_its_pad():
         assert 252 in autopilot.stations
 
 
+@pytest.mark.long
 def test_two_drones_fly_by_one_clock():
     plan = hop_plan("near", "far", waits=5.0)
     with World(plan) as world:
@@ -142,6 +143,7 @@ def test_what_others_send_to_the_port_is_not_believed(system):
     assert flown.diagnostics == []
 
 
+@pytest.mark.long
 def test_a_local_frame_that_begins_elsewhere_changes_nothing_on_the_globe():
     plan = hop_plan()
     tie = (47.3769 + 0.004, 8.5417 - 0.006, 395.0)

@@ -52,6 +52,7 @@ def claim(plan, constraint):
     return found
 
 
+@pytest.mark.long
 def test_heights_above_ground_are_proved_and_are_what_is_flown(hills):
     shape, _, plan = hills
     places = phases(plan, "transit", "shot", "hold")
@@ -125,6 +126,7 @@ def test_a_drone_flies_up_a_cliff_and_keeps_from_its_wall(tmp_path, height):
     assert claim(plan, "distance from terrain").worst > 0.0
 
 
+@pytest.mark.long
 def test_the_mission_over_real_elevation_data_is_planned():
     path = Path(__file__).parents[2] / "specs" / "terrain" / "jacksboro-ridge.yaml"
     found = planned(path)

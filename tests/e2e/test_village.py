@@ -36,6 +36,7 @@ def test_the_church_is_the_boxes_about_its_parts_and_other_eyes_see_it(planned):
     assert judge(case_of(MISSION, "none")) == []
 
 
+@pytest.mark.long
 def test_the_village_is_of_houses_and_of_the_parts_of_a_church(planned):
     (mesh,) = planned.trajectory.keyframes.mission.meshes
     assert {"nave", "choir", "tower", "Tithe barn"} <= set(mesh.names)

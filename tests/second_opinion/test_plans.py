@@ -29,6 +29,7 @@ FEW = (1, 7, 12)  # quick ones, of one drone to three
 MANY = range(300, 400)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", FILMED)
 def test_a_mission_of_the_tree_flies_as_it_says(path: Path) -> None:
     assert judge(case_of(path, "none")) == []

@@ -74,6 +74,7 @@ def test_a_refined_mission_is_sound_and_framed_between_its_keyframes(name):
     assert stats["s.refine_status"] == "solved"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", list(MISSIONS))
 def test_placed_keyframes_are_passed_exactly(name):
     done = planned(name)
@@ -95,6 +96,7 @@ def test_clearances_hold_at_dense_samples(name):
     assert min(least_room(made, made.drones[0], tuple(p)) for p in points) >= -1e-6
 
 
+@pytest.mark.long
 def test_the_convex_path_crops_what_ours_shows():
     convex, ours, four = (compiled(NEAR, name) for name in ("none", "ours", "ours-4pt"))
     sound(ours)
@@ -139,6 +141,7 @@ def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
     assert found.off.max() < 0.01  # its place on screen yields a little to the whole of it
 
 
+@pytest.mark.long
 def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch):
     """A refiner that does not see the wall at its nodes finds it in the proof, and comes back."""
     real = rounds.half_spaces
@@ -225,6 +228,7 @@ def test_a_keyframe_is_reached_at_its_time(index, share):
     assert seen(done.plan).off.max() < 0.02
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "share", [0.9, pytest.param(0.1, marks=pytest.mark.fuzz), pytest.param(0.5, marks=pytest.mark.fuzz)]
 )

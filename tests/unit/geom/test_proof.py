@@ -318,3 +318,28 @@ def test_a_pocket_of_a_zone_is_outside_of_it_also_where_its_hull_is_not_left() -
     # Deep in the notch, a metre from the next wall, and above its floor by more.
     inside = straight((7, 7, 4), (6.5, 6.5, 4))
     assert sup_outside(inside, L_SHAPE, fine).proven > 0.0
+
+
+def hill(low: float, inner: float) -> Piecewise:
+    """One channel over [low, low + 1] that begins and ends at 0; all control points between are ``inner``."""
+    ctrl = np.array([[0.0, inner, inner, inner, inner, 0.0]])
+    return Piecewise(np.array([low, low + 1.0]), ctrl[:, :, None])
+
+
+def test_a_piece_that_is_closed_early_counts_in_the_bound() -> None:
+    """The first hill is 0.9375 high and within the gap of what is attained, the spike beside it is halved."""
+    spike = Piecewise(np.array([2.0, 3.0]), np.array([[0.9, 0.0, 1.6, 0.0, 0.0, 0.0]])[:, :, None])
+    both = join([pieces(hill(0.0, 1.0)), pieces(spike)])
+    top = 0.9375
+    for bound in (
+        sup_channel(both, 0, lambda _: 0.5),
+        sup_channel(join([pieces(spike), pieces(hill(5.0, 1.0))]), 0, lambda _: 0.5),
+    ):
+        assert bound.proven >= top
+        assert 0.9 <= bound.attained <= bound.proven <= bound.attained + 0.5
+    below = inf_channel(join([pieces(negative(hill(0.0, 1.0))), pieces(negative(spike))]), 0, lambda _: 0.5)
+    assert below.attained - 0.5 <= below.proven <= -top
+
+
+def negative(curve: Piecewise) -> Piecewise:
+    return Piecewise(curve.breaks, -curve.ctrl)

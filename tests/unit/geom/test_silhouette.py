@@ -189,3 +189,12 @@ def test_the_edges_of_a_cylinder_are_its_rims() -> None:
         assert (strip[:, 2] == height).all()
         assert strip[0] == pytest.approx(strip[-1])
         assert np.ptp(strip[:, 0]) == pytest.approx(np.ptp(strip[:, 1]), rel=0.01)
+
+
+def test_what_is_seen_as_a_triangle_is_an_outline() -> None:
+    up = view(0.0, 1.5, 1.2, ASPECT)
+    prism = Prism(((-1.0, -1.0), (2.0, -1.0), (0.0, 2.0)), 5.0, 9.0)
+    (outline,) = solid_outlines(up, (0.0, 0.0, 0.0), prism)
+    assert len(outline) == 3
+    ahead_of = np.array([[1.0, 0.0, 0.2], [-1.0, 0.5, 0.0], [-1.0, -0.5, 0.0]])
+    assert project_loop(view(0.0, 0.0, 1.2, ASPECT), ahead_of).shape == (3, 2)

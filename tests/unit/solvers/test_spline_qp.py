@@ -371,3 +371,20 @@ def test_bounds_hold_on_every_control_point():
     inside = np.abs(np.sin(at)) < 0.2
     miss = value_rows(breaks, at).apply(coef[:, None])[:, 0] - np.sin(at)
     assert np.abs(miss[inside]).max() < 0.1
+
+
+@pytest.mark.parametrize(("wanted", "got"), [(10.0, 3.0), (-10.0, 1.0), (2.5, 2.5)])
+def test_a_bound_of_one_component_is_about_its_centre(wanted, got):
+    """As near to what is wanted as |y - 2| <= 1 lets it be; x and z are free."""
+    breaks = np.array([0.0, 1.0, 2.0])
+    rows = control_rows(breaks)
+    size = len(rows.piece)
+    band = Cones(rows, (1,), np.full((size, 1), 2.0), np.ones(size), None, np.zeros(size, dtype=int))
+    goal = Goal(rows, np.tile([5.0, wanted, -5.0], (size, 1)))
+    fixed = Equalities(value_rows(breaks, np.array([1.0])), np.array([[5.0, got, -5.0]]))
+    free = SplineProblem(count(breaks), (goal,), fixed, (), (band,))
+    for about in (np.zeros(3), np.array([7.0, -4.0, 1.0])):
+        found = minimise(centred(free, about))
+        assert found.status is Status.SOLVED
+        places = spline(breaks, found.coef)(np.linspace(0.0, 2.0, 9)) + about
+        assert places == pytest.approx(np.tile([5.0, got, -5.0], (9, 1)), abs=1e-5)

@@ -138,3 +138,13 @@ def test_nothing_hides_nothing():
     assert not hidden(surface_of(np.zeros((0, 3, 3))), north()).any()
     nobody = Billboards(*np.zeros((4, 0, 3)))
     assert hidden(surface_of(rectangle(1, (0, 1), (0, 1))), nobody).shape == (0, 8, 8)
+
+
+@pytest.mark.parametrize("size", [1e-2, 1.0, 1e2])
+def test_what_stands_behind_the_ends_of_all_rays_is_left_out_whatever_its_size(size: float):
+    """A quarter of a micrometre before the ends a triangle may stop rays, a millimetre behind them none."""
+    boards = north(20.0, 2.0)
+    wall = np.array([[[-size, 0.0, -size], [size, 0.0, -size], [0.0, 0.0, size]]])
+    for y, met in ((20.0 - 2.5e-7, True), (20.0 + 1e-3, False), (-20.0, False)):
+        found = sight.in_the_way(surface_of(wall + np.array([0.0, y, 0.0])), boards, 4)
+        assert bool(len(found)) is met

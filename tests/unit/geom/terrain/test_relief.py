@@ -172,3 +172,16 @@ def test_as_many_posts_are_taken_beyond_a_box_on_one_side_as_on_the_other(low: f
     assert values[at_ends].tolist() == values.tolist()
     assert relief._about(values, np.array([-3.0, -1.0])) is None
     assert relief._about(values, np.array([20.0, 21.0])) is None
+
+
+def test_the_sides_of_a_wide_box_bulge_in_degrees_and_all_of_it_has_ground():
+    """At latitude 60 a parallel is d^2 tan(60) / 2 R off a straight line: 49 m after 19 km, 22 posts."""
+    origin, box = (60.0, 10.0, 0.0), PlanRectangle((-19_000.0, -10.0), (19_000.0, 10.0))
+    lat, lon = 60.0 + np.linspace(-0.002, 0.002, 201), np.linspace(9.6, 10.4, 81)
+    found = relief_of(level(4326, lon, lat, 100.0), box, origin)
+    assert isinstance(found, Relief)
+    x = np.linspace(box.low[0], box.high[0], 301)
+    sides = np.concatenate([np.column_stack([x, np.full(301, y)]) for y in (box.low[1], box.high[1])])
+    assert np.isfinite(height_at(found.ground, sides)).all()
+    assert found.shape[0] < 45
+    assert found.shape[1] < 81

@@ -22,6 +22,7 @@ from shotc.passes.verify.explained import (
     for_the_picture,
     in_the_way,
 )
+from tests.support.compiled import compiled_text
 from tests.support.film_plans import orbit_plan
 from tests.support.mesh_spaces import with_meshes
 from tests.support.records import replace
@@ -143,3 +144,46 @@ def test_houses_explain_as_much_as_it_takes_to_go_over_or_round_what_is_near() -
     assert in_the_way(replace(one, mission=with_meshes(one.mission, far)), EAST) == {}
     told = [PathDeviation("a", 9.0, 0.0, "scene"), PathDeviation("a", 4.0, 0.0, "buildings")]
     assert believed(told, in_the_way(there, EAST)) == [9.0]
+
+
+FOLLOWS = (
+    STANDS.replace("kind: static", "kind: lateral")
+    .replace("start: 10,", "start: 12,")
+    .replace("look_at: runner, at: [0, -20, 6]", "target: runner, side: right, distance: 8, altitude: 4")
+)
+
+
+@pytest.mark.slow
+def test_a_shot_may_be_as_far_off_as_is_reported_and_no_farther_than_is_explained() -> None:
+    done = compiled_text(FOLLOWS, "none", "follows.yaml")
+    assert done.plan is not None, done.diagnostics
+    document: Document = json.loads(api.emit_plan(done.plan, []).artifacts[0].data)
+    limits = []
+    for reported in (0.0, 2.0, 1e3, 1e4):
+        document["deviations"] = [
+            {"shot": "watch", "distance": reported, "s": 12.0, "cause": "the drone's limits"}
+        ]
+        limits.append(limit_of(json.loads(resealed(document))))
+    assert limits[:2] == [1.0, 3.0]
+    assert 3.0 < limits[2] == limits[3] < 1e3
+
+
+def plate(x: tuple[float, float], z: float) -> np.ndarray:
+    """A level rectangle of triangles, 4 m wide."""
+    a, b, c, d = ((x[0], -2.0, z), (x[1], -2.0, z), (x[1], 2.0, z), (x[0], 2.0, z))
+    return np.array([[a, b, c], [a, c, d]])
+
+
+def test_parts_one_above_the_other_are_gone_round_together_and_parts_aside_are_not() -> None:
+    one = flight()
+    near = one.mission.rules.beside_obstacle(one.drone.radius) + NEAR_M
+    climb = ExpectedPlaces(
+        np.linspace([0.5, 0.0, 30.0], [0.5, 0.0, 31.0 + 2.0 * near], 50), np.linspace(0.0, 9.0, 50)
+    )
+    low, high = plate((-30.0, 0.0), 30.0), plate((1.0, 31.0), 31.0 + 2.0 * near)
+    both = replace(one, mission=with_meshes(one.mission, low, high))
+    wide = np.hypot(61.0 + 2.0 * near, 4.0 + 2.0 * near)
+    assert in_the_way(both, climb) == {"scene": pytest.approx(wide + 2.0 * near)}
+    apart = with_meshes(one.mission, plate((-40.0, -20.0), 30.0), plate((15.0, 45.0), 30.0))
+    wide = np.hypot(30.0 + 2.0 * near, 4.0 + 2.0 * near)
+    assert in_the_way(replace(one, mission=apart), EAST) == {"scene": pytest.approx(wide + 2.0 * near)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from math import pi
+from math import atan2, pi, radians
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import pytest
 from shotc.api import Compilation, verify_plan
 from shotc.cli.summary import summary
 from shotc.diag.model import Diagnostic
+from shotc.ir.measures import measure
 from shotc.ir.path import CAM_YAW
 from shotc.planfile.write import document
 from tests.support.compiled import compiled_text
@@ -175,3 +176,14 @@ def test_a_cone_that_is_none_is_refused(angle: object) -> None:
     value = plan_of(ABREAST, REQUIRE)
     value["mission"]["rules"]["half_angle"] = angle
     assert verify_plan(json.dumps(value).encode(), "plan.json").plan is None
+
+
+def test_how_far_aside_another_has_to_be_is_what_lacks_of_the_angle() -> None:
+    found = planned(("6, 30", "180"), "rules: {mutual_visibility: {half_angle: 20 deg, strength: prefer}}")
+    assert found.plan is not None
+    (first, _) = told(found)
+    claim = next(c for c in found.plan.certificate if c.constraint == "two out of the picture")
+    # The body is nearer to the axis than its centre by as much as its radius is wide.
+    assert 0.8 * atan2(6.0, 60.0) < claim.worst < atan2(6.0, 60.0)
+    lack = measure(radians(20.0) - claim.worst, "rad")
+    assert f"film from where `two` is {lack} farther off the axis" in first.help

@@ -22,6 +22,8 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import stricter
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.fleets.apart import separations
+from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.report import rule_of
 from tests.support.records import replace
 from tests.support.show_plans import PADS, RISE, STEP, display, fleet, flight, mission, show
@@ -374,3 +376,27 @@ def test_the_worst_place_and_time_are_the_drone_s() -> None:
             drone = int(c.drones[0].removeprefix("swarm-")) - 1
             at = places(track.breaks, track.coef, np.array([c.time]))[drone, 0]
             np.testing.assert_allclose(at, c.position, atol=1e-9)
+
+
+def test_two_drones_on_near_pads_take_off_in_layers_and_are_proved_in_the_air_and_on_their_pads() -> None:
+    near = fleet(((0.0, 0.0, 0.0), (0.7, 0.0, 0.0)))
+    up = flight(near)
+    first, last = (np.repeat(up.coef[:, end], 3, axis=1) for end in (slice(None, 1), slice(-1, None)))
+    coef = np.concatenate([first, up.coef, last], axis=1)
+    stands = replace(up, breaks=STEP * np.arange(coef.shape[1] - 2), coef=coef)
+    found = separations([FleetFlight.of(mission(fleets=(near,)), stands)])
+    worst = {claim.constraint: claim.worst for claim in found}
+    assert worst == {
+        "separation in the air": pytest.approx(0.7, abs=1e-6),
+        "separation on pads": pytest.approx(0.7, abs=1e-6),
+    }
+
+
+def test_a_drone_that_passes_another_on_its_pad_is_found() -> None:
+    """The first goes straight from (0, 0) to (0.4, 0.5) beside the second at (0.7, 0), which stands."""
+    near = fleet(((0.0, 0.0, 0.0), (0.7, 0.0, 0.0)))
+    moves = np.repeat([near.pads[0], (0.4, 0.0, 0.5), (0.0, 0.0, 9.0)], 4, axis=0)
+    coef = np.stack([moves, np.repeat([near.pads[1]], len(moves), axis=0)])
+    flown = replace(flight(near), breaks=STEP * np.arange(coef.shape[1] - 2), coef=coef)
+    found = {c.constraint: c for c in separations([FleetFlight.of(mission(fleets=(near,)), flown)])}
+    assert found["separation on pads"].worst == pytest.approx(0.35 / np.hypot(0.4, 0.5), abs=1e-5)

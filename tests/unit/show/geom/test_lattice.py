@@ -66,5 +66,6 @@ def test_layers_are_apart_in_space_and_denser_to_the_eye(count: int, upright: bo
     assert layers.seen == pytest.approx(
         ball if not upright else {2: sqrt(0.5), 3: sqrt(2) / 3, 4: 0.5}[count]
     )
+    assert layers.depth == pytest.approx(1.0 if upright else sqrt(1.0 - ball**2))
     one = 1.0 if upright or count == 2 else 2 / sqrt(3)
     assert len(flat) == pytest.approx(count * one * 14.4**2, rel=0.08)

@@ -79,3 +79,12 @@ def test_the_pair_that_crosses_is_named() -> None:
     least, i, j = crossing(starts, goals)
     assert (least, {i, j}) == (-1.0, {0, 1})
     assert crossing(starts[:1], goals[:1])[0] == np.inf
+
+
+def test_where_the_goals_are_as_a_whole_changes_nothing() -> None:
+    """Parts are halved about the means: a fleet that is matched in parts is matched alike 500 m away."""
+    rng = np.random.default_rng(5)
+    starts, goals = formation(rng, 310), rng.normal(size=(310, 3)) * [9.0, 5.0, 2.0]
+    order = matched(starts, goals)
+    assert (matched(starts, goals + np.array([300.0, -400.0, 100.0])) == order).all()
+    assert (matched(starts - np.array([0.0, 500.0, 0.0]), goals) == order).all()

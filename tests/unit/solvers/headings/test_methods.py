@@ -245,3 +245,24 @@ def test_more_time_never_costs_winding_more_than_nearest() -> None:
 def test_bad_tasks_are_refused(at, yaw, changes) -> None:
     with pytest.raises(ValueError, match=r"."):
         HeadingTask(np.array(at), np.array(yaw), **changes)
+
+
+@pytest.mark.parametrize("count", [2, 3, 5])
+def test_the_least_energy_through_values_is_that_of_its_slopes(count: int) -> None:
+    rng = np.random.default_rng(count)
+    at = np.cumsum(rng.uniform(0.5, 2.0, count))
+    cost = energy(at, 0.3, (0.4, -0.7))
+    matrix, linear, constant = cost.reduced()
+    for value in rng.normal(size=(3, count)):
+        slope = cost.slopes(value)
+        assert (slope[0], slope[-1]) == (0.4, -0.7)
+        least = cost.of(value, slope)
+        assert value @ matrix @ value + 2.0 * linear @ value + constant == pytest.approx(least)
+        for k in range(1, count - 1):
+            assert cost.of(value, slope + 0.01 * np.eye(count)[k]) > least
+            assert cost.of(value, slope - 0.01 * np.eye(count)[k]) > least
+
+
+def test_the_energy_of_a_straight_line_is_that_of_its_slope_alone() -> None:
+    at = np.array([0.0, 1.0, 3.0])
+    assert energy(at, 2.0, (0.5, 0.5)).of(0.5 * at, np.full(3, 0.5)) == pytest.approx(2.0 * 0.25 * 3.0)
