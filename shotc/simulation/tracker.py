@@ -67,8 +67,22 @@ class Tracker:
         """
         return expected(stepped(self._past[-1][0], float(times[0]), self.models), times, self.models)
 
+    def spread(self, times: Array) -> Array:
+        """Return the standard deviation of the position predicted to times (M,), (M, R), metres: of the
+        horizontal direction in which it is largest.
+        """
+        found = stepped(self._past[-1][0], float(times[0]), self.models)
+        return np.array([_across(stepped(found, time, self.models).whole) for time in times.tolist()])
+
     def _forget(self) -> None:
         oldest = self._past[-1][0].time - KEPT_S
         k = bisect_right(self._past, oldest, key=lambda entry: entry[0].time)
         if k > 1:
             del self._past[: k - 1]
+
+
+def _across(estimate: Estimate) -> Array:
+    """Return the larger standard deviation of the horizontal position, (R,), metres."""
+    flat = estimate.covariance[:, :2, :2]
+    mean, half = 0.5 * (flat[:, 0, 0] + flat[:, 1, 1]), 0.5 * (flat[:, 0, 0] - flat[:, 1, 1])
+    return np.asarray(np.sqrt(mean + np.hypot(half, flat[:, 0, 1])))

@@ -79,16 +79,22 @@ class Standing:
         return Walls(normals, offsets)
 
 
-def _hulls(last: Plan, stages: Array, keeping: Keeping) -> Array:
-    """Return the points of each stage with its neighbours, and of the stopping path, (N + 1, 3,
-    3), metres.
+def followed(last: Plan, stages: Array, keeping: Keeping) -> Array:
+    """Return the positions of a plan at stages (N + 1,), and last the one where it stops after its end,
+    (N + 2, 3), metres.
     """
     at = np.column_stack([np.interp(stages, last.times, column) for column in last.places.T])
     v = last.velocities[-1]
     seconds = keeping.reaction + float(np.linalg.norm(v)) / (2.0 * keeping.limits.usable_acceleration)
     past = np.clip(stages - last.times[-1], 0.0, seconds)[:, None]
-    at = at + past * v
-    stands = last.places[-1] + seconds * v
-    after = np.concatenate([at[2:], at[-1:]])
-    around = np.stack([at[:-1], at[1:], after], axis=1)
-    return np.concatenate([around, np.stack([at[-1], 0.5 * (at[-1] + stands), stands])[None]])
+    return np.vstack([at + past * v, last.places[-1] + seconds * v])
+
+
+def _hulls(last: Plan, stages: Array, keeping: Keeping) -> Array:
+    """Return the points of each stage with its neighbours, and of the stopping path, (N + 1, 3,
+    3), metres.
+    """
+    *_, end, stands = at = followed(last, stages, keeping)
+    after = np.concatenate([at[2:-1], at[-2:-1]])
+    around = np.stack([at[:-2], at[1:-1], after], axis=1)
+    return np.concatenate([around, np.stack([end, 0.5 * (end + stands), stands])[None]])
