@@ -14,6 +14,7 @@ from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
 from shotc.passes.resolve.lower.files import FileReader, Files
 from shotc.passes.resolve.lower.recordings import read_recording
+from shotc.simulation.conditions import Outage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,22 +22,26 @@ if TYPE_CHECKING:
     from shotc.source.file import SourceFile
 
 
-def stretches(lost: Sequence[str]) -> tuple[tuple[float, float], ...]:
-    """Return the time intervals of options written FROM:TO, seconds."""
-    return tuple(_stretch(each) for each in lost)
+def outages(mission: MissionIR, lost: Sequence[str]) -> tuple[Outage, ...]:
+    """Return the outages of options written FROM:TO or NAME=FROM:TO, seconds."""
+    return tuple(_outage(mission, each) for each in lost)
 
 
-def _stretch(text: str) -> tuple[float, float]:
-    start, _, end = text.partition(":")
+def _outage(mission: MissionIR, text: str) -> Outage:
+    name, equals, span = text.rpartition("=")
+    if equals:
+        drones, targets = [d.name for d in mission.drones], [t.name for t in mission.targets]
+        console.known("--lost", name, [*drones, *targets])
+    start, _, end = span.partition(":")
     try:
-        span = float(start), float(end)
+        outage = Outage(float(start), float(end), name)
     except ValueError:
-        span = (0.0, 0.0)
-    if not (isfinite(span[1]) and 0.0 <= span[0] < span[1]):
+        outage = Outage(0.0, 0.0)
+    if not (isfinite(outage.end) and 0.0 <= outage.start < outage.end):
         raise typer.BadParameter(
-            f"`{text}` is no stretch of time; write FROM:TO in seconds", param_hint="--lost"
+            f"`{text}` is no stretch of time; write FROM:TO or NAME=FROM:TO in seconds", param_hint="--lost"
         )
-    return span
+    return outage
 
 
 def true_tracks(

@@ -13,7 +13,7 @@ from shotc import plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.cli import console
 from shotc.cli.console import Progress, known
-from shotc.cli.flight_options import stretches, true_tracks
+from shotc.cli.flight_options import outages, true_tracks
 from shotc.cli.hands import Workers, at_work, no_cluster
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
@@ -81,7 +81,10 @@ Bias = Annotated[
 ]
 Lost = Annotated[
     list[str] | None,
-    typer.Option(metavar="FROM:TO", help="Seconds without satellite positions of targets; repeatable."),
+    typer.Option(
+        metavar="[NAME=]FROM:TO",
+        help="Seconds without satellite positions, of one drone or target or of all; repeatable.",
+    ),
 ]
 Wander = Annotated[
     float | None,
@@ -162,7 +165,7 @@ def simulate(
             gusts,
             gps,
             bias,
-            stretches(lost or ()),
+            outages(mission, lost or ()),
             wander,
             Truth(tracks=true_tracks(mission, sources, truth or ())),
             seed,

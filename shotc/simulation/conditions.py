@@ -4,14 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 from zlib import crc32
 
 import numpy as np
 
 from shotc.ir.rehearsal import Loop, VehicleName
-from shotc.simulation.sensors import RTK, Detector, Gps
+from shotc.simulation.sensors import RTK, Detector, Gps, Interval
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import WindField
+
+
+class Outage(NamedTuple):
+    """An interval without satellite positions, seconds of mission time.
+
+    who : name of the drone or target that has none; "" for all of them
+    """
+
+    start: float
+    end: float
+    who: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +35,7 @@ class Conditions:
     replanner : name of the replanner, of ``plugins.names("replanners")``
     vehicle : "lag" is the built-in model, "rotorpy" needs RotorPy
     gps : receiver of the drones and of moving targets
+    outages : when positions are lost
     detector : finds targets in pictures, or None
     """
 
@@ -31,6 +44,7 @@ class Conditions:
     wind: WindField = field(default_factory=WindField)
     vehicle: VehicleName = "lag"
     gps: Gps = RTK
+    outages: tuple[Outage, ...] = ()
     detector: Detector | None = field(default_factory=Detector)
     truth: Truth = field(default_factory=Truth)
     seed: int = 1
@@ -38,6 +52,16 @@ class Conditions:
     def chances(self, runs: Sequence[int], what: str) -> list[np.random.Generator]:
         """Return one random generator for each run; it depends only on the seed, the run and ``what``."""
         return [np.random.default_rng(self.seed_of(run, what)) for run in runs]
+
+    def lost(self, name: str) -> tuple[Interval, ...]:
+        """Return the intervals in which a drone or a target has no satellite positions, in order, apart."""
+        found: list[Interval] = []
+        for start, end in sorted((o.start, o.end) for o in self.outages if o.who in ("", name)):
+            if found and start <= found[-1][1]:
+                found[-1] = (found[-1][0], max(end, found[-1][1]))
+            else:
+                found.append((start, end))
+        return tuple(found)
 
     def seed_of(self, run: int, what: str) -> tuple[int, ...]:
         """Return the seed of one random quantity in a run."""

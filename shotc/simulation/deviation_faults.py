@@ -10,16 +10,19 @@ from itertools import groupby
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.rounding import at_least, at_most, up
+from shotc.simulation.blind import BLIND_S
+from shotc.simulation.conditions import Conditions
 from shotc.simulation.deviations import RECEIVER_SHARE, Lag, Misled, needed
 from shotc.simulation.judge import Run
 from shotc.simulation.rehearsal import Rehearsed
-from shotc.simulation.sensors import Gps
+from shotc.simulation.sensors import Gps, Interval
 
 
 def deviations(done: Rehearsed) -> Iterator[Diagnostic]:
     """Yield the warnings of a rehearsal."""
     yield from _left_behind(done)
     yield from _misled(done)
+    yield from _unplaced(done)
     yield from _unplanned(done)
 
 
@@ -60,8 +63,8 @@ def _causes(done: Rehearsed, lag: Lag, run: Run) -> Iterator[str]:
     """Yield what is known about the reason of a lag."""
     own = f"{lag.drone} at most at {at_most(lag.most)} m/s"
     yield f"`{lag.target}` moves at up to {at_least(lag.speed)} m/s, {own}"
-    for start, end in _lost_before(done.conditions.gps, lag):
-        yield f"there are no positions of targets from {start:g} to {end:g} s"
+    for start, end in _lost_before(done.conditions, lag):
+        yield f"there are no positions of `{lag.target}` from {start:g} to {end:g} s"
     for course in run.courses:
         counts = course.replans
         if course.drone == lag.drone and counts is not None:
@@ -71,8 +74,8 @@ def _causes(done: Rehearsed, lag: Lag, run: Run) -> Iterator[str]:
                 yield f"{counts.lost} replans of {lag.drone} were left out: {counts.blind}"
 
 
-def _lost_before(gps: Gps, lag: Lag) -> tuple[tuple[float, float], ...]:
-    return tuple(each for each in gps.lost if each[0] <= lag.time)
+def _lost_before(conditions: Conditions, lag: Lag) -> tuple[Interval, ...]:
+    return tuple(each for each in conditions.lost(lag.target) if each[0] <= lag.time)
 
 
 def _remedy(done: Rehearsed, lag: Lag) -> str:
@@ -81,7 +84,7 @@ def _remedy(done: Rehearsed, lag: Lag) -> str:
         limits = done.mission.drone(lag.drone).limits
         fast = up(limits.speed + done.mission.wind_taken + lag.speed - lag.most, 1)
         track = f"raise `limits.speed` of {lag.drone} over {fast:g} m/s if it can fly that, and {track}"
-    elif _lost_before(done.conditions.gps, lag):
+    elif _lost_before(done.conditions, lag):
         track = f"film where positions are not lost, or {track}"
     return f"{track}; with a larger `distance` and a longer lens, a lag costs less of the size on screen"
 
@@ -103,6 +106,28 @@ def _misled(done: Rehearsed) -> Iterator[Diagnostic]:
             tuple(_circumstances(led, run, i)),
             f"fly with receivers that err less: {_receivers(done.conditions.gps)}; or plan with clearances "
             f"over {at_least(led.metres)} m (`rules`)",
+        )
+
+
+def _unplaced(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield one warning for each drone that has no positions of its own for a while."""
+    for i, first in enumerate(done.runs[0].courses):
+        lost = done.conditions.lost(first.drone)
+        off, run = max((run.courses[i].unplaced.metres, run.number) for run in done.runs)
+        if off == 0.0:
+            continue
+        worst = done.run(run).courses[i].unplaced
+        spans = " and ".join(f"{start:g} to {end:g} s" for start, end in lost)
+        yield Diagnostic(
+            "W011",
+            f"{first.drone} has no positions of its own from {spans}: it takes itself to be up to "
+            f"{at_least(off)} m from where it is",
+            (done.mission.origins.value(done.mission.drone(first.drone).path),),
+            (
+                f"worst in run {run}, at {worst.time:.1f} s",
+                f"after {BLIND_S:g} s without positions it brakes and holds; then it returns to its plan",
+            ),
+            "read what your autopilot does without positions: some land where they are",
         )
 
 

@@ -11,8 +11,9 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.simulation.flight import DroneRuns
+from shotc.simulation.flight import DroneRuns, own_error
 from shotc.simulation.guidance import MOST_BACK_S
+from shotc.simulation.sensors import within
 from shotc.simulation.situations import Anew, Chased, replanned
 from shotc.simulation.world import World, at_times
 
@@ -79,6 +80,18 @@ class Misled:
     time: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class Unplaced:
+    """The largest error of a drone's own position while it has none by satellites, in one run.
+
+    metres : 0 if it always has one
+    time : seconds
+    """
+
+    metres: float = 0.0
+    time: float = 0.0
+
+
 def lags(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[tuple[Lag, ...]]:
     """Return for every run how far a drone falls behind in each replanned shot; () without replanning."""
     shots = replanned(world.mission, track) if world.conditions.loop == "replan" else ()
@@ -93,16 +106,28 @@ def lags(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[tuple[L
 def misled(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Misled]:
     """Return for every run the largest stray of a drone that is mainly its receiver's error.
 
-    Replanned shots and the ways back from them leave the plan on purpose, so they do not count.
+    Replanned shots, flight without positions, and the ways back from both leave the plan on purpose, so they
+    do not count.
     """
-    times, gps = flown.times, world.conditions.gps
-    error = gps.own_error(times, world.conditions.chances(world.runs, f"gps of {flown.drone}"))
+    times = flown.times
+    error = own_error(world, flown.drone, times)
     off = np.linalg.norm(flown.position - track.curve(times)[:, None, :3], axis=2)
     counts = np.linalg.norm(error, axis=2) >= RECEIVER_SHARE * off
     counts &= _on_plan(world, track, times)[:, None]
     off = np.where(counts, off, 0.0)
     worst = np.argmax(off, axis=0)
     return [Misled(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
+
+
+def unplaced(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Unplaced]:
+    """Return for every run the largest error of a drone's own position while it has none by satellites."""
+    lost, times = world.conditions.lost(flown.drone), flown.times
+    aboard = np.array([within(t, lost) and t <= track.curve.end for t in times.tolist()], dtype=bool)
+    if not aboard.any():
+        return [Unplaced()] * len(world.runs)
+    off = np.linalg.norm(own_error(world, flown.drone, times), axis=2) * aboard[:, None]
+    worst = np.argmax(off, axis=0)
+    return [Unplaced(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
 
 
 def needed(mission: MissionIR) -> float:
@@ -155,6 +180,8 @@ def _lags(world: World, track: DroneTrajectory, flown: DroneRuns, of: tuple[Phas
 def _on_plan(world: World, track: DroneTrajectory, times: Array) -> Array:
     """Return at which of times (M,) a drone follows its plan, (M,)."""
     inside = np.ones(len(times), dtype=bool)
+    for start, end in world.conditions.lost(track.drone):
+        inside &= (times < start) | (times > end + MOST_BACK_S)
     if world.conditions.loop == "replan":
         for shot in replanned(world.mission, track):
             inside &= (times < shot.phase.start) | (times > shot.phase.end + MOST_BACK_S)

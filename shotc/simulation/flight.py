@@ -16,6 +16,7 @@ from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import Replanner
 from shotc.simulation.aim import Shown, aim_rates, aimed
+from shotc.simulation.blind import BlindHold
 from shotc.simulation.film import PlanSamples, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
 from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
@@ -106,9 +107,8 @@ def fly(
     conditions, runs = world.conditions, world.runs
     name, count, n = film.drone.name, len(film.times), len(runs)
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
-    error = conditions.gps.own_error(
-        film.times[::STEPS_PER_RECORD], conditions.chances(runs, f"gps of {name}")
-    )
+    error = own_error(world, name, film.times[::STEPS_PER_RECORD])
+    hold = BlindHold.of(film, conditions.lost(name))
     targets = _watched(world, film)
     shots = () if by is None else replanned(world.mission, film.track)
     guidance = Guidance(world, film, shots, by, targets, sent, own)
@@ -132,8 +132,16 @@ def fly(
             attitudes, rate = _demanded(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, attitudes, rate, STEPS_PER_RECORD * STEP_S)
         setpoint = guidance.setpoint(k, (state.position + off, state.velocity))
+        setpoint = hold.setpoint(float(film.times[k]), setpoint, n)
         state = plant.carried(state, *steered(vehicle, state, setpoint, off), world.steady + gusts[k])
     return into.done(film, guidance)
+
+
+def own_error(world: World, drone: str, times: Array) -> Array:
+    """Return the errors of a drone's own position at uniform times (M,), seconds; shape (M, R, 3), metres."""
+    conditions = world.conditions
+    chances = conditions.chances(world.runs, f"gps of {drone}")
+    return conditions.gps.own_error(times, chances, conditions.lost(drone))
 
 
 def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:

@@ -20,7 +20,7 @@ from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import ClosestApproach, between, nearest
-from shotc.simulation.deviations import Lag, Misled, lags, misled
+from shotc.simulation.deviations import Lag, Misled, Unplaced, lags, misled, unplaced
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
@@ -67,6 +67,7 @@ class TrackingError:
     spoiled : share of filming samples with another drone in its picture, or in the cone of the rules; 0
         without other drones
     misled : the largest stray that is mainly its receiver's error
+    unplaced : the largest error of its own position while it has none by satellites
     """
 
     drone: str
@@ -79,6 +80,7 @@ class TrackingError:
     replans: Replans | None = None
     spoiled: float = 0.0
     misled: Misled = field(default_factory=Misled)
+    unplaced: Unplaced = field(default_factory=Unplaced)
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -155,6 +157,7 @@ def judged(
     filmed = [tuple(_filmed(mission, track)) for track in ir.drones]
     astray = [_away(f, t) for f, t in zip(flown, ir.drones, strict=True)]
     led = [misled(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
+    blind = [unplaced(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     behind = [lags(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     return tuple(
         Run(
@@ -168,6 +171,7 @@ def judged(
                 replace(
                     _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r))),
                     misled=led[d][r],
+                    unplaced=blind[d][r],
                 )
                 for d, f in enumerate(flown)
             ),

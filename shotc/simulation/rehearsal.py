@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.rehearsal import Loop, Receiver, Rehearsal, RehearsalPromise, VehicleName, Wind
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
-from shotc.simulation.conditions import Conditions
+from shotc.simulation.conditions import Conditions, Outage
 from shotc.simulation.judge import Run
 from shotc.simulation.runs import RunBlock, Strays
 from shotc.simulation.sensors import GRADES
@@ -36,7 +36,7 @@ class RehearsalOptions(NamedTuple):
     gusts : standard deviation, m/s
     gps : a name of GRADES
     bias : offset of all positions to the East, metres
-    lost : intervals without satellite positions, seconds
+    outages : when satellite positions are lost
     wander : standard deviation of the targets from their tracks, metres
     """
 
@@ -47,7 +47,7 @@ class RehearsalOptions(NamedTuple):
     gusts: float | None = None
     gps: Receiver | None = None
     bias: float = 0.0
-    lost: tuple[tuple[float, float], ...] = ()
+    outages: tuple[Outage, ...] = ()
     wander: float | None = None
     truth: Truth = Truth()
     seed: int = 1
@@ -103,7 +103,8 @@ def conditions_of(mission: MissionIR, options: RehearsalOptions) -> Conditions:
             toward=wind.toward if options.bearing is None else yaw_of(radians(options.bearing) + pi),
             gusts=_either(options.gusts, usual.gusts),
         ),
-        gps=replace(GRADES[options.gps or usual.gps], offset=(options.bias, 0.0, 0.0), lost=options.lost),
+        gps=replace(GRADES[options.gps or usual.gps], offset=(options.bias, 0.0, 0.0)),
+        outages=options.outages,
         truth=replace(options.truth, wander=_either(options.wander, usual.wander)),
         seed=options.seed,
         replanner=options.replanner,

@@ -15,6 +15,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import FramedTarget, PlanSamples
 from shotc.simulation.gimbal import Attitude
 from shotc.simulation.kalman import Estimate, Measurement, MotionModel, PictureFix, PositionFix, projection
+from shotc.simulation.sensors import within
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
@@ -94,6 +95,7 @@ class TrackedTarget:
 def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTarget:
     """Return the tracker of a moving target, initialised with its approximate position."""
     conditions, runs, name = world.conditions, world.runs, framed.target
+    lost = conditions.lost(name)
     gps, places = conditions.gps, world.places[name]
     every = max(1, round(gps.period / STEP_S))
     stamps = world.times[::every]
@@ -102,7 +104,7 @@ def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTar
     fixes = [
         PositionFix(float(t), place, gps.noise, everywhere)
         for t, place in zip(stamps, measured, strict=True)
-        if gps.arrives(float(t))
+        if not within(float(t), lost)
     ]
     velocity = (places[1] - places[0]) / STEP_S
     models = (replace(walk, bias=sqrt(2.0) * gps.bias) for walk in WALKS)

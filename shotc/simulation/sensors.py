@@ -18,6 +18,14 @@ BIAS_MEMORY_S = 20.0
 FILTER_S = 1.0
 BAROMETER_SHARE = 0.2
 
+RECKONED_M_S, RECKONED_M_S2 = 0.1, 0.05
+"""Standard deviations of the errors of velocity and of acceleration, on each horizontal axis, with which a
+drone goes on by its inertial sensors when positions are lost. That of acceleration is what an attitude error
+of 0.3 degrees takes for a motion. After 5 s the position is off by 0.8 m on each axis.
+"""
+
+Interval = tuple[float, float]
+
 
 @dataclass(frozen=True, slots=True)
 class Gps:
@@ -28,7 +36,6 @@ class Gps:
     offset : constant error along East, North and Up
     period : seconds between positions
     delay : seconds from a position's time until it arrives
-    lost : intervals without positions, (from, until), seconds of mission time
     """
 
     noise: float = 0.02
@@ -36,7 +43,6 @@ class Gps:
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
     period: float = 0.2
     delay: float = 0.1
-    lost: tuple[tuple[float, float], ...] = ()
 
     @property
     def deviation(self) -> float:
@@ -52,12 +58,17 @@ class Gps:
         drift = wandering(slow, step / BIAS_MEMORY_S)
         return np.asarray(self.noise * white + self.bias * drift + np.array(self.offset))
 
-    def own_error(self, times: Array, chances: Sequence[np.random.Generator]) -> Array:
+    def own_error(
+        self, times: Array, chances: Sequence[np.random.Generator], lost: Sequence[Interval] = ()
+    ) -> Array:
         """Return the errors of a drone's own position at uniform times (M,), seconds; shape (M, R, 3),
         metres.
 
         Its filter smooths the noise over FILTER_S. Its barometer reduces the error of height to
-        BAROMETER_SHARE of the receiver's.
+        BAROMETER_SHARE of the receiver's. Without satellites it goes on by its inertial sensors, and comes
+        back to its receiver within about FILTER_S.
+
+        lost : intervals without satellites, (from, until), in order, seconds
         """
         noise = np.stack([rng.standard_normal((len(times), 6)) for rng in chances], axis=1)
         step = float(times[1] - times[0]) if len(times) > 1 else 0.0
@@ -65,11 +76,35 @@ class Gps:
         drift = wandering(noise[..., 3:], step / BIAS_MEMORY_S)
         error = self.noise * white + self.bias * drift
         error[..., 2] *= BAROMETER_SHARE
-        return np.asarray(error + np.array(self.offset))
+        error += np.array(self.offset)
+        for interval in lost:
+            drawn = np.stack([rng.standard_normal((2, 2)) for rng in chances])
+            _reckon(error, times, interval, drawn)
+        return np.asarray(error)
 
-    def arrives(self, time: float) -> bool:
-        """Return whether there is a position at a time."""
-        return not any(start <= time < end for start, end in self.lost)
+
+def within(time: float, lost: Sequence[Interval]) -> bool:
+    """Return whether a time is in one of some intervals."""
+    return any(start <= time < end for start, end in lost)
+
+
+def _reckon(error: Array, times: Array, lost: Interval, drawn: Array) -> None:
+    """Replace position errors (M, R, 3) by those of inertial sensors in an interval, and let them fade after
+    it.
+
+    drawn : of the errors of velocity and acceleration, East and North, standard normal, (R, 2, 2)
+    """
+    first, after = np.searchsorted(times, lost).tolist()
+    kept = error[max(first - 1, 0), :, :2].copy()
+
+    def reckoned(since: Array) -> Array:
+        t = since[:, None, None]
+        return np.asarray(kept + RECKONED_M_S * drawn[:, 0] * t + 0.5 * RECKONED_M_S2 * drawn[:, 1] * t * t)
+
+    error[first:after, :, :2] = reckoned(times[first:after] - lost[0])
+    if after < len(times):
+        gap = reckoned(np.array([lost[1] - lost[0]]))[0] - error[after, :, :2]
+        error[after:, :, :2] += np.exp((lost[1] - times[after:]) / FILTER_S)[:, None, None] * gap
 
 
 RTK = Gps()

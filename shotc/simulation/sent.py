@@ -56,7 +56,7 @@ class Fading:
         plan = self.film.setpoint(self.film.step(time))
         if (time >= self.start + self.lasts).all():
             return plan
-        moved = [self._beside(time, order) for order in range(3)]
+        moved = [self.beside(time, order) for order in range(3)]
         return VehicleSetpoint(
             plan.position + moved[0], plan.velocity + moved[1], plan.acceleration + moved[2]
         )
@@ -74,7 +74,7 @@ class Fading:
         speed = np.linalg.norm(self.rate, axis=1)
         return np.asarray(np.minimum(self.lasts, np.maximum(SLOWS_S, speed / BRAKES_M_S2)))
 
-    def _beside(self, time: float, order: int) -> Array:
+    def beside(self, time: float, order: int) -> Array:
         """Return the offset or its derivative, (R, 3)."""
         slows = self._slows
         x, y = (np.clip((time - self.start) / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts, slows))

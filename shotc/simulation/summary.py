@@ -11,6 +11,7 @@ import numpy as np
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import as_minutes, at_least, at_most, plain, up
+from shotc.simulation.conditions import Outage
 from shotc.simulation.fleets.near import ClosestPair
 from shotc.simulation.judge import Run, TargetFraming, TrackingError
 from shotc.simulation.rehearsal import Rehearsed, alike
@@ -95,6 +96,7 @@ def _conditions(done: Rehearsed) -> str:
     if done.ir.drones:
         parts.insert(0, blows)
         parts.append(f"positions within {plain(gps.deviation, 2)} m{_beside(gps)}")
+        parts += [_without(each) for each in conditions.outages]
         parts.append(LOOPS[conditions.loop])
     if conditions.truth.wander:
         parts.append(f"targets {plain(conditions.truth.wander, 2)} m off their tracks")
@@ -102,11 +104,14 @@ def _conditions(done: Rehearsed) -> str:
 
 
 def _beside(gps: Gps) -> str:
-    """Return the constant error of positions and the intervals without them, in words."""
+    """Return the constant error of positions in words."""
     east = gps.offset[0]
-    away = f" of {plain(abs(east), 2)} m too far {'east' if east > 0 else 'west'}" if east else ""
-    lost = " and ".join(f"{plain(start, 1)} to {plain(end, 1)} s" for start, end in gps.lost)
-    return f"{away}, none of targets from {lost}" if lost else away
+    return f" of {plain(abs(east), 2)} m too far {'east' if east > 0 else 'west'}" if east else ""
+
+
+def _without(outage: Outage) -> str:
+    whose = f"none of {outage.who}" if outage.who else "none"
+    return f"{whose} from {plain(outage.start, 1)} to {plain(outage.end, 1)} s"
 
 
 def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:

@@ -216,6 +216,8 @@ def test_a_truth_that_cannot_be_is_refused(run: Run, given, rows: str, words: st
     [
         ("--lost", "5"),
         ("--lost", "9:5"),
+        ("--lost", "nobody=5:9"),
+        ("--lost", "walker="),
         ("--truth", "nobody=x.csv"),
         ("--truth", "walker"),
         ("--loop", "no"),

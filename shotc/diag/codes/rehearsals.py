@@ -120,4 +120,19 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "W011",
+        "position-lost",
+        Severity.WARNING,
+        "in a rehearsal a drone has no satellite positions for a while",
+        "`shotc simulate --lost 20:25` takes the satellite positions from all drones and targets, `--lost cam=20:25` "
+        "from one. A drone goes on by its inertial sensors, whose error grows: 0.8 m on each axis after 5 s (one "
+        "standard deviation). After 2 s it brakes and holds, as well as it knows its place; a drone that lands over "
+        "its pad goes on landing. When positions are back it returns to its plan, straight and without a look at "
+        "what is in between: the nearest things of each run tell whether there is room. Real autopilots differ: some "
+        "land where they are.",
+        "",
+        "",
+        "other",
+    ),
 )

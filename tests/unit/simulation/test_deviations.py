@@ -6,15 +6,21 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
+from shotc.simulation.blind import BlindHold
+from shotc.simulation.conditions import Outage
 from shotc.simulation.deviation_faults import deviations
+from shotc.simulation.film import film_of
 from shotc.simulation.rehearsal import RehearsalOptions, Rehearsed, conditions_of, rehearse
+from shotc.simulation.runs import flown as simulated_flights
 from shotc.simulation.runs import simulated
 from shotc.simulation.truth import Truth
+from shotc.simulation.world import at_times
 from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
@@ -99,6 +105,34 @@ def test_gusts_and_corrected_positions_are_none() -> None:
     done = flown(RehearsalOptions(loop="replan", gusts=1.0))
     assert list(deviations(done)) == []
     assert all(run.courses[0].misled.metres < 0.2 for run in done.runs)
+
+
+@pytest.mark.parametrize("loop", ["replay", "track", "replan"])
+def test_a_drone_without_positions_holds_and_comes_back_and_it_is_a_warning(loop) -> None:
+    done = flown(RehearsalOptions(loop=loop, outages=(Outage(12.0, 17.0, "cam"),)))
+    found = only([each for each in deviations(done) if each.code == "W011"])
+    assert found.labels[0].span.line == 5
+    assert "cam has no positions of its own from 12 to 17 s" in found.message
+    course = done.runs[0].courses[0]
+    assert 0.1 < course.unplaced.metres < 4.0
+    assert course.unplaced.time == pytest.approx(17.0, abs=0.05)
+    ir, conditions = done.ir, done.conditions
+    world, (cam,) = simulated_flights(ir, conditions, (0,))
+    held = at_times(cam.velocity[:, 0], cam.times, np.array([13.9, 16.0, 16.9]))
+    assert np.linalg.norm(held[0]) > 2.0
+    assert np.linalg.norm(held[1:], axis=1).max() < 1.0  # as well as it knows its place
+    end = ir.drones[0].curve.end
+    home = at_times(cam.position[:, 0], cam.times, np.array([end]))[0]
+    assert home == pytest.approx(ir.drones[0].curve(np.array([end]))[0, :3], abs=0.5)
+    assert "cam" in world.conditions.outages[0]
+
+
+def test_an_outage_while_it_lands_or_shorter_than_two_seconds_stops_nobody() -> None:
+    done = flown(RehearsalOptions())
+    film = film_of(done.mission, done.ir.drones[0])
+    lands = next(phase.start for phase in film.track.phases if phase.name == "land")
+    assert BlindHold.of(film, ((10.0, 12.0), (lands - 1.0, lands + 5.0))).held == ()
+    assert BlindHold.of(film, ((10.0, 12.5),)).held == ((12.0, 12.5),)
 
 
 def test_a_replanner_without_plans_is_a_warning_that_counts_and_says_why(monkeypatch) -> None:

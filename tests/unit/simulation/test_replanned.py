@@ -11,13 +11,12 @@ from shotc import plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.track import Track
 from shotc.plugin_api.replanner import Plan, Traffic
-from shotc.simulation.conditions import Conditions
+from shotc.simulation.conditions import Conditions, Outage
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
 from shotc.simulation.kalman import STATE_COUNT, Estimate
 from shotc.simulation.seen import Foreseen
-from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import WindField
@@ -178,8 +177,8 @@ def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(mon
 
 @pytest.mark.long
 def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
-    lost = Gps(lost=((0.0, 100.0),))
-    conditions = Conditions(loop="replan", gps=lost, detector=None)
+    lost = (Outage(0.0, 100.0, "walker"),)
+    conditions = Conditions(loop="replan", outages=lost, detector=None)
     world = World.of(plan(), conditions, (0,))
     (run,) = judged(world, plan(), fly_all(world, plan().drones))
     for course in run.courses:

@@ -11,12 +11,11 @@ from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
 from shotc.plugin_api.replanner import NO_WALLS, Walls
-from shotc.simulation.conditions import Conditions
+from shotc.simulation.conditions import Conditions, Outage
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.kalman import PositionFix
 from shotc.simulation.seen import WALKS
-from shotc.simulation.sensors import Gps
 from shotc.simulation.target_reach import TargetReach, with_targets
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.truth import Truth
@@ -91,11 +90,11 @@ def test_the_spread_of_a_prediction_grows_from_that_of_the_estimate() -> None:
     assert spread[3] > 5.0
 
 
-def run_of(text: str, track: Track, lost: tuple[tuple[float, float], ...] = ()) -> Run:
+def run_of(text: str, track: Track, lost: tuple[Outage, ...] = ()) -> Run:
     done = compiled_text(text, "none")
     assert done.plan is not None, done.diagnostics
     ir = done.plan.trajectory
-    conditions = Conditions(loop="replan", gps=Gps(lost=lost), truth=Truth(tracks=(("cart", track),)))
+    conditions = Conditions(loop="replan", outages=lost, truth=Truth(tracks=(("cart", track),)))
     if lost:
         conditions = replace(conditions, detector=None)
     world = World.of(ir, conditions, (0,))
@@ -109,7 +108,7 @@ def away(run: Run) -> float:
 
 @pytest.mark.slow
 @pytest.mark.long
-@pytest.mark.parametrize("lost", [(), ((17.0, 60.0),)], ids=["seen", "lost"])
+@pytest.mark.parametrize("lost", [(), (Outage(17.0, 60.0, "cart"),)], ids=["seen", "lost"])
 def test_the_way_back_keeps_clear_of_where_its_subject_may_be(monkeypatch, lost) -> None:
     """The cart turns to the drone's side, so it is between the drone and its plan when the shot ends."""
     turns = Track((0.0, 14.0, 34.0, 60.0), ((-10.0, 0.0, 1.5), (9.6, 0.0, 1.5), *((24.0, -20.0, 1.5),) * 2))

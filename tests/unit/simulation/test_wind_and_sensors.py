@@ -7,11 +7,11 @@ from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
 from shotc.ir.target import Target
 from shotc.simulation.aim import Shown, aim_rates, aimed
-from shotc.simulation.conditions import Conditions
+from shotc.simulation.conditions import Conditions, Outage
 from shotc.simulation.gimbal import axes_of
 from shotc.simulation.kalman import MotionModel, PositionFix, projection
 from shotc.simulation.seen import TrackedTarget
-from shotc.simulation.sensors import PLAIN, Detector, Gps
+from shotc.simulation.sensors import PLAIN, RECKONED_M_S, RECKONED_M_S2, RTK, Detector, Gps, within
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import WindField, wandering
@@ -66,10 +66,25 @@ def test_longer_recordings_begin_as_shorter_ones_do():
 
 
 def test_no_position_arrives_while_it_is_lost():
-    gps = Gps(lost=((10.0, 15.0),))
-    assert gps.arrives(9.9)
-    assert not gps.arrives(10.0)
-    assert gps.arrives(15.0)
+    conditions = Conditions(outages=(Outage(14.0, 15.0), Outage(10.0, 14.5), Outage(2.0, 3.0, "walker")))
+    assert conditions.lost("cam") == ((10.0, 15.0),)
+    assert conditions.lost("walker") == ((2.0, 3.0), (10.0, 15.0))
+    assert [within(t, conditions.lost("cam")) for t in (9.9, 10.0, 15.0)] == [False, True, False]
+
+
+def test_without_satellites_a_drone_drifts_by_its_inertial_sensors_and_comes_back():
+    times = np.arange(1500) * 0.02
+    plain = RTK.own_error(times, chances(400))
+    lost = RTK.own_error(times, chances(400), ((10.0, 15.0),))
+    before, inside, after = times < 10.0, (times >= 10.0) & (times < 15.0), times >= 22.0
+    assert np.array_equal(lost[before], plain[before])
+    assert np.array_equal(lost[..., 2], plain[..., 2])  # the barometer needs no satellites
+    assert lost[after] == pytest.approx(plain[after], abs=5e-3)
+    off = lost[inside][..., :2]
+    wanted = np.hypot(RECKONED_M_S * 5.0, RECKONED_M_S2 * 12.5)
+    assert off[-1].std() == pytest.approx(wanted, rel=0.1)
+    assert np.abs(np.diff(lost, axis=0)).max() < 0.1  # no jump, when positions are back either
+    assert np.abs(lost[times >= 15.0][0, :, :2] - off[-1]).max() < 0.02
 
 
 def test_a_position_is_known_at_the_step_on_which_it_arrives():
