@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +14,7 @@ from shotc.cli.console import known
 from shotc.cli.plans import PlanPath, prove
 from shotc.diag.registry import has_errors
 from shotc.plugins import not_installed
+from shotc.stream.beginning import clock_time, moment
 from shotc.stream.clock import WallClock
 from shotc.stream.endings import as_interrupts
 from shotc.stream.endpoint import Endpoint, endpoint
@@ -42,10 +44,19 @@ TargetOption = Annotated[
         help="Let cameras follow where a target really is: positions as JSON or MAVLink come to this port.",
     ),
 ]
+At = Annotated[
+    str | None,
+    typer.Option(
+        metavar="TIME",
+        help="The time of day of mission time 0: HH:MM:SS here, or a date and time of ISO 8601 [at once].",
+    ),
+]
 Arm = Annotated[bool, typer.Option("--arm", help="Arm the vehicles and fly. Without it nothing moves.")]
 
 
-def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm = False) -> None:
+def stream(
+    plan: PlanPath, to: To = None, target: TargetOption = None, at: At = None, arm: Arm = False
+) -> None:
     """Send a proved plan to PX4 or ArduPilot over MAVLink: 50 setpoints a second a drone, on one clock.
 
     Without --arm it is a dry run: it connects to every vehicle, reads its state, judges it, prints what the
@@ -60,6 +71,9 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
     GUIDED (ArduPilot), records its shots, and lands on its pad. If anything goes wrong, or at Ctrl-C, every
     drone in the air is told to hold (PX4: HOLD, ArduPilot: BRAKE): be ready to take over.
 
+    With --at mission time 0 is at that time of day, so that several machines and a show begin together. Set
+    their clocks by a time server or by satellites. Drones get ready up to 15 s before it.
+
     With --target cameras follow the real place of a target, and keep it at its planned place on screen;
     drones keep to the plan. A datagram is `{"x": 3.1, "y": -2, "z": 0.9}` in the mission's frame,
     `{"lat": .., "lon": .., "alt": ..}`, or the GLOBAL_POSITION_INT of another vehicle.
@@ -69,7 +83,10 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
         shotc stream out/tower --to udp:14540
 
         shotc stream out/runner --to near=udp:14540 --to far=udp:14541 --target runner=udp:14600 --arm
+
+        shotc stream out/film --to udp:14540 --at 21:30:00 --arm
     """
+    begins = None if at is None else _moment(at)
     given, targets = _addresses(to or [], "--to"), _addresses(target or [], "--target")
     if find_spec("pymavlink") is None:
         console.report([not_installed("P004", "`shotc stream`", ["pymavlink"])], {})
@@ -82,11 +99,24 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
     addresses = _of_one(given, flown)
     _all_named(addresses, flown)
     _all_filmed(targets, report.plan.trajectory)
-    raise typer.Exit(_stream(report, addresses, targets, arm=arm))
+    raise typer.Exit(_stream(report, addresses, targets, at=begins, arm=arm))
+
+
+def _moment(text: str) -> float:
+    """Return a time of day as POSIX seconds."""
+    try:
+        return moment(text, datetime.fromtimestamp(WallClock().utc(), UTC)).timestamp()
+    except ValueError as fault:
+        raise typer.BadParameter(str(fault), param_hint="--at") from None
 
 
 def _stream(
-    report: PlanReport, addresses: Mapping[str, Endpoint], targets: Mapping[str, Endpoint], *, arm: bool
+    report: PlanReport,
+    addresses: Mapping[str, Endpoint],
+    targets: Mapping[str, Endpoint],
+    *,
+    at: float | None,
+    arm: bool,
 ) -> int:
     from shotc.stream.session import Session
     from shotc.stream.sockets import DOORS
@@ -98,21 +128,24 @@ def _stream(
         if not has_errors(diagnostics):
             aboard, judged = session.check()
             diagnostics = [*diagnostics, *judged]
+        if aboard and at is not None and not has_errors(diagnostics):
+            diagnostics = [*diagnostics, *session.too_soon(aboard, at)]
         console.report(diagnostics, report.sources)
         if console.exit_code(diagnostics):
             return console.EXIT_REJECTED
         console.out(_checked(aboard))
         if not arm:
-            console.out("dry run: nothing was armed or moved; with --arm this is flown")
+            begins = "" if at is None else f", from {clock_time(at)} on"
+            console.out(f"dry run: nothing was armed or moved; with --arm this is flown{begins}")
             return console.EXIT_CLEAN
-        return _fly(session, aboard, report)
+        return _fly(session, aboard, report, at)
 
 
-def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport) -> int:
+def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport, at: float | None) -> int:
     from shotc.stream.report import timing_summary
 
     with as_interrupts(), punctual() as granted:
-        flown, pilots = session.fly(aboard)
+        flown, pilots = session.fly(aboard, at)
     console.out(_outcome(flown, pilots))
     console.out(f"{timing_summary(flown.times)}{'; at real-time priority' * granted}")
     console.report(flown.diagnostics, report.sources)

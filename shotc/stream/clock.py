@@ -20,6 +20,10 @@ class Clock(Protocol):
         """Return at ``moment``, or at once if it has passed."""
         ...
 
+    def utc(self) -> float:
+        """Return the time of day, POSIX seconds."""
+        ...
+
 
 class WallClock:
     """The monotonic clock of the machine."""
@@ -33,3 +37,7 @@ class WallClock:
         left = moment - time.monotonic()
         if left > 0:
             time.sleep(left)
+
+    def utc(self) -> float:
+        """Return the time of day, POSIX seconds."""
+        return time.time()

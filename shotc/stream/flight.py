@@ -10,6 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.stream import faults
 from shotc.stream.aim import LiveAim
+from shotc.stream.beginning import clock_time
 from shotc.stream.clock import PERIOD_S, RATE_HZ, Clock
 from shotc.stream.feed import Feed
 from shotc.stream.pilot import Pilot
@@ -23,6 +24,8 @@ a lost link.
 HOLD_S = 5.0
 """How long the hold mode is requested before an error is reported."""
 HOLD_AGAIN_S = 0.5
+WAIT_S = 0.1
+"""How often vehicles are listened to before the first tick, s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +56,22 @@ class StreamedFlight:
     """Sends a plan to vehicles that have passed their checks."""
 
     def __init__(
-        self, crew: Sequence[PilotedDrone], feeds: Sequence[Feed], clock: Clock, say: Callable[[str], None]
+        self,
+        crew: Sequence[PilotedDrone],
+        feeds: Sequence[Feed],
+        clock: Clock,
+        say: Callable[[str], None],
+        at: float | None = None,
     ) -> None:
-        """Prepare the flight; say : receives what happens, line by line."""
+        """Prepare the flight; say : receives what happens, line by line.
+
+        at : the time of day of mission time 0, POSIX seconds; None begins at once
+        """
         self._crew = crew
         self._feeds = feeds
         self._clock = clock
         self._say = say
+        self._at = at
         self._delays: list[float] = []
         self._skipped = 0
         self._beat = float("-inf")
@@ -90,9 +102,7 @@ class StreamedFlight:
 
     def _run(self) -> list[Diagnostic]:
         diagnostics: list[Diagnostic] = []
-        start = self._clock.now() - self._tick * PERIOD_S
-        if self._tick < 0:
-            self._say(f"mission time 0 is in {-self._tick * PERIOD_S:.1f} s")
+        start = self._start()
         while not all(member.pilot.done for member in self._crew):
             tick_time = start + self._tick * PERIOD_S
             self._clock.wait_until(tick_time)
@@ -110,6 +120,26 @@ class StreamedFlight:
             self._skipped += onward - self._tick - 1
             self._tick = onward
         return diagnostics
+
+    def _start(self) -> float:
+        """Return the time of the clock that is mission time 0; until the first tick of a beginning at a time
+        of day, keep up with the vehicles.
+
+        Time of day may be set while this waits, so it is looked at until the first tick, and not later.
+        """
+        lead = -self._tick * PERIOD_S
+        if self._at is None:
+            if lead > 0.0:
+                self._say(f"mission time 0 is in {lead:.1f} s")
+            return self._clock.now() + lead
+        left = self._at - self._clock.utc()
+        self._say(f"mission time 0 is at {clock_time(self._at)}, in {left:.1f} s")
+        while True:
+            now, left = self._clock.now(), self._at - self._clock.utc()
+            if left <= lead + WAIT_S:
+                return now + left
+            self._keep_up(now)
+            self._clock.wait_until(now + WAIT_S)
 
     def _send(self) -> None:
         now = self._clock.now()

@@ -20,6 +20,7 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.stream import checks
 from shotc.stream.aim import LiveAim
 from shotc.stream.autopilots import AUTOPILOTS, Autopilot
+from shotc.stream.beginning import clock_time
 from shotc.stream.checks import Ready
 from shotc.stream.clock import RATE_HZ, Clock
 from shotc.stream.endpoint import Endpoint
@@ -164,8 +165,20 @@ class Session:
                     "let its position be sent there, or leave --target away",
                 )
 
-    def fly(self, aboard: Sequence[Aboard]) -> tuple[FlightResult, list[Pilot]]:
-        """Arm and fly all drones on one clock."""
+    def too_soon(self, aboard: Sequence[Aboard], at: float) -> Iterator[Diagnostic]:
+        """Yield the error of a beginning before which drones cannot get ready; at : POSIX seconds."""
+        lead = max(-Pilot(who.ready.vehicle, who.course, ()).begins / RATE_HZ for who in aboard)
+        left = at - self._clock.utc()
+        if left < lead:
+            yield Diagnostic(
+                "A035",
+                f"mission time 0 cannot be at {clock_time(at)}: drones get ready for {lead:.1f} s before it",
+                notes=(f"after the checks {max(left, 0.0):.1f} s are left",),
+                help="give a later time with --at; the checks take up to 20 s",
+            )
+
+    def fly(self, aboard: Sequence[Aboard], at: float | None = None) -> tuple[FlightResult, list[Pilot]]:
+        """Arm and fly all drones on one clock; at : the time of day of mission time 0, POSIX seconds."""
         crew = [
             PilotedDrone(
                 Pilot(who.ready.vehicle, who.course, cuts_of(who.track)),
@@ -173,7 +186,7 @@ class Session:
             )
             for who in aboard
         ]
-        flown = StreamedFlight(crew, self._feeds, self._clock, self._note).fly()
+        flown = StreamedFlight(crew, self._feeds, self._clock, self._note, at).fly()
         return flown, [member.pilot for member in crew]
 
 
@@ -201,7 +214,7 @@ def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
             f"the cameras alone are streamed: the plan has the fleet {names}, too",
             (mission.origins.key(("fleets",)),),
             ("cameras stay out of the airspace of the show whenever either begins",),
-            "start the show when mission time 0 is told: its .skyc file has the same clock",
+            "give the show and `--at` the same time of day; its .skyc file has the same clock",
         )
     elif names:
         yield Diagnostic(

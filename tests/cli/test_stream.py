@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from datetime import UTC, datetime
 from types import SimpleNamespace
 
 import pytest
@@ -14,7 +15,7 @@ from tests.support.records import replace
 from tests.support.show_plans import plan as show_plan
 from tests.support.stream.autopilot import PX4_HOLD, Script
 from tests.support.stream.plans import hop_plan, with_target
-from tests.support.stream.worlds import World, free_port
+from tests.support.stream.worlds import EPOCH, World, free_port
 
 pytestmark = pytest.mark.slow
 
@@ -58,6 +59,29 @@ def test_meant_it_flies_and_says_how_well_it_was_sent(run: Run, flying) -> None:
     assert "sent every 20 ms, after its moment: median 0.00 ms" in done.out
     assert "cam1: records shot `by-cam1`" in done.err
     assert len(world.autopilots["cam1"].setpoints) > 1500
+
+
+def test_with_a_time_of_day_mission_time_0_is_then(run: Run, flying) -> None:
+    world, to = flying(hop_plan())
+    at = world.clock.utc() + 60.0
+    clock = datetime.fromtimestamp(at, UTC).isoformat()
+    done = run("stream", "plan.json", *to, "--at", clock, "--arm")
+    assert done.code == 0
+    assert "mission time 0 is at" in done.err
+    first = world.autopilots["cam1"].setpoints[0][0]  # before that, nothing but heartbeats
+    assert first - (at - EPOCH) == pytest.approx(-8.0, abs=0.05)
+
+
+def test_a_time_of_day_that_is_too_soon_or_over_arms_nothing(run: Run, flying) -> None:
+    world, to = flying(hop_plan())
+    soon = datetime.fromtimestamp(world.clock.utc() + 5.0, UTC).isoformat()
+    done = run("stream", "plan.json", *to, "--at", soon, "--arm")
+    assert done.code == 1
+    assert "error[A035]" in done.err
+    assert not world.autopilots["cam1"].setpoints
+    assert {command[1] for command in world.autopilots["cam1"].commands} <= {511}
+    for wrong in ("2020-01-01T00:00:00Z", "later"):
+        assert run("stream", "plan.json", *to, "--at", wrong, "--arm").code == 2
 
 
 def test_a_check_that_fails_is_told_and_ends_with_one(run: Run, flying) -> None:

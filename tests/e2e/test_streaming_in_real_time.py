@@ -42,6 +42,9 @@ class Hurried:
     def now(self):
         return self._wall.now() * HURRY
 
+    def utc(self):
+        return self._wall.utc()
+
     def wait_until(self, moment):
         self._wall.wait_until(moment / HURRY)
 

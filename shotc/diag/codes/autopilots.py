@@ -216,6 +216,13 @@ CODES: tuple[CodeInfo, ...] = (
         "clocks beginning together.",
     ),
     _fault(
+        35,
+        "begins-too-soon",
+        "mission time 0 is too soon for the drones to get ready",
+        "`--at` says at which time of day mission time 0 is. A drone gets ready before its lift-off, 8 s (PX4) or 15 s "
+        "(ArduPilot); where the plan lifts off at once, that is before mission time 0. Checks come first, which take up to 20 s.",
+    ),
+    _fault(
         32,
         "machine-takes-no-setpoints",
         "a drone of the plan is flown by an app, which takes no setpoints",

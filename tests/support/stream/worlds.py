@@ -18,6 +18,8 @@ from shotc.stream.session import Session
 from shotc.stream.sockets import DOORS
 from tests.support.stream.autopilot import ARDUPILOT, PX4, Autopilot, Script
 
+EPOCH = 1.8e9
+"""The time of day at which a ``DrivenClock`` begins, POSIX seconds."""
 SOMEWHERE = (47.0, 8.0, 400.0)
 
 
@@ -34,6 +36,9 @@ class DrivenClock:
 
     def now(self):
         return self.time
+
+    def utc(self):
+        return EPOCH + self.time
 
     def wait_until(self, moment):
         self.time = max(self.time, moment)

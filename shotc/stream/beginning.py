@@ -1,0 +1,65 @@
+"""The time of day at which mission time 0 is, so that cameras and shows begin together."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, time, timedelta
+
+LATEST = timedelta(hours=12)
+"""How far ahead a beginning may be: a time of day that has just passed is not that of tomorrow."""
+
+
+def moment(text: str, now: datetime) -> datetime:
+    """Return the moment of a text: `HH:MM` or `HH:MM:SS` of this machine's time zone, or a date and time of
+    ISO 8601, with its zone or in this machine's.
+
+    now : with a time zone
+
+    Raise ValueError, which says what is wrong with the text.
+    """
+    found = _next(text, now) if "-" not in text else _dated(text)
+    if found <= now:
+        raise ValueError(f"`{text}` was {_span(now - found)} ago")
+    if found - now > LATEST:
+        hours = LATEST.total_seconds() / 3600
+        raise ValueError(f"`{text}` is {_span(found - now)} ahead; at most {hours:g} h are waited")
+    return found
+
+
+def clock_time(moment: float) -> str:
+    """Return a POSIX time as the time of day of this machine, with its offset from UTC."""
+    return datetime.fromtimestamp(moment, UTC).astimezone().strftime("%H:%M:%S%z")
+
+
+def _next(text: str, now: datetime) -> datetime:
+    """Return the time of day that is nearest to now, today's, yesterday's or tomorrow's."""
+    try:
+        if ":" not in text:
+            raise ValueError
+        of_day = time.fromisoformat(text)
+    except ValueError:
+        raise ValueError(
+            f"`{text}` is no time; write HH:MM:SS, or a date and time as 2026-05-30T21:30:00+02:00"
+        ) from None
+    zone = now.astimezone() if of_day.tzinfo is None else now.astimezone(of_day.tzinfo)
+    days = [zone.date() + timedelta(days=shift) for shift in (-1, 0, 1)]
+    every = [
+        datetime.combine(day, of_day) if of_day.tzinfo else datetime.combine(day, of_day).astimezone()
+        for day in days
+    ]
+    return min(every, key=lambda each: abs(each - now))
+
+
+def _dated(text: str) -> datetime:
+    try:
+        found = datetime.fromisoformat(text)
+    except ValueError:
+        raise ValueError(f"`{text}` is no date and time; write them as 2026-05-30T21:30:00+02:00") from None
+    return found if found.tzinfo else found.astimezone()
+
+
+def _span(span: timedelta) -> str:
+    """Return a length of time in words."""
+    seconds = span.total_seconds()
+    if seconds < 120.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
