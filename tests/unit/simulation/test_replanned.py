@@ -182,8 +182,8 @@ def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
     world = World.of(plan(), conditions, (0,))
     (run,) = judged(world, plan(), fly_all(world, plan().drones))
     for course in run.courses:
-        assert course.replans.planned == course.replans.failed == 0
-        assert course.replans.lost > 0
+        assert course.replans.failed == 0
+        assert course.replans.lost == 16  # every time in the shot; the way back is planned without it
         assert course.replans.blind.startswith("`walker` is known to 4 m at best")
 
 
