@@ -107,6 +107,7 @@ def test_gusts_and_corrected_positions_are_none() -> None:
     assert all(run.courses[0].misled.metres < 0.2 for run in done.runs)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("loop", ["replay", "track", "replan"])
 def test_a_drone_without_positions_holds_and_comes_back_and_it_is_a_warning(loop) -> None:
     done = flown(RehearsalOptions(loop=loop, outages=(Outage(12.0, 17.0, "cam"),)))
@@ -135,6 +136,7 @@ def test_an_outage_while_it_lands_or_shorter_than_two_seconds_stops_nobody() -> 
     assert BlindHold.of(film, ((10.0, 12.5),)).held == ((12.0, 12.5),)
 
 
+@pytest.mark.long
 def test_a_replanner_without_plans_is_a_warning_that_counts_and_says_why(monkeypatch) -> None:
     asked = RehearsalOptions(loop="replan", replanner="theirs")
     compiled_text(BIKE, "none")

@@ -23,6 +23,8 @@ from shotc.simulation.replanner_process import (
 from tests.support.failing_replanners import GARBAGE, LATE, LISTS, NAN, SAYS_NO, SHORT, STATUS
 from tests.support.replans import DT, problem, situation
 
+pytestmark = pytest.mark.slow
+
 FAILING = "tests.support.failing_replanners"
 STAGES = 5
 

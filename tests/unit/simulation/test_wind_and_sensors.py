@@ -73,16 +73,16 @@ def test_no_position_arrives_while_it_is_lost():
 
 
 def test_without_satellites_a_drone_drifts_by_its_inertial_sensors_and_comes_back():
-    times = np.arange(1500) * 0.02
-    plain = RTK.own_error(times, chances(400))
-    lost = RTK.own_error(times, chances(400), ((10.0, 15.0),))
+    times = np.arange(1150) * 0.02
+    plain = RTK.own_error(times, chances(150))
+    lost = RTK.own_error(times, chances(150), ((10.0, 15.0),))
     before, inside, after = times < 10.0, (times >= 10.0) & (times < 15.0), times >= 22.0
     assert np.array_equal(lost[before], plain[before])
     assert np.array_equal(lost[..., 2], plain[..., 2])  # the barometer needs no satellites
     assert lost[after] == pytest.approx(plain[after], abs=5e-3)
     off = lost[inside][..., :2]
     wanted = np.hypot(RECKONED_M_S * 5.0, RECKONED_M_S2 * 12.5)
-    assert off[-1].std() == pytest.approx(wanted, rel=0.1)
+    assert off[-1].std() == pytest.approx(wanted, rel=0.15)
     assert np.abs(np.diff(lost, axis=0)).max() < 0.1  # no jump, when positions are back either
     assert np.abs(lost[times >= 15.0][0, :, :2] - off[-1]).max() < 0.02
 
