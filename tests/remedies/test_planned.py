@@ -23,7 +23,6 @@ PLANNED = [info for info in registry().values() if info.phase == "plan"]
 TOLD_IN_WORDS = {
     **dict.fromkeys(("M008", "M009", "Q001", "Q006"), "what moves out of the way is the author's choice"),
     **dict.fromkeys(("M011", "M013", "Q009"), "where else a home or a keyframe goes is the author's choice"),
-    "D089": "where pictures and zones are is the author's choice",
     "V029": "where a shot begins and ends is the author's choice",
     "Q007": "where a keyframe goes is the author's choice",
     "N016": "a command of its own finds the target, or the author names it",

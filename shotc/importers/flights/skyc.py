@@ -199,11 +199,17 @@ def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:
 
 
 def _key(point: Any, where: str) -> Key:
-    if not isinstance(point, list) or len(point) != 3 or not _is_number(point[0]) or not _is_place(point[1]):
-        refuse(BROKEN, f"`{where}` is no time, place and control points", WHOLE)
+    if not isinstance(point, list) or len(point) != 3 or not isinstance(point[2], list):
+        refuse(BROKEN, f"`{where}` is no list of 3: a time, a place and control points", WHOLE)
     time, place, control = point
-    if not isinstance(control, list) or len(control) > DEGREE - 1 or not all(map(_is_place, control)):
-        refuse(BROKEN, f"`{where}` has control points that make no line, quadratic or cubic", WHOLE)
+    if not _is_number(time):
+        refuse(BROKEN, f"the time of `{where}` is no number of seconds", WHOLE)
+    if len(control) > DEGREE - 1:
+        many = f"{len(control)} control points, which make no line, quadratic or cubic"
+        refuse(BROKEN, f"`{where}` has {many}: 0 to {DEGREE - 1} are possible", WHOLE)
+    for name, at in (("the place", place), *((f"control point {i + 1}", p) for i, p in enumerate(control))):
+        if not _is_place(at):
+            refuse(BROKEN, f"{name} of `{where}` is no list of 3 finite numbers", WHOLE)
     return float(time), place[:3], [each[:3] for each in control]
 
 

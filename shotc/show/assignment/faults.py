@@ -167,8 +167,14 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
     )
 
 
-def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: RoomLack) -> Diagnostic:
-    """Return D089: on arcs the fleet expands into the ground, above its height limit, or into an obstacle."""
+def no_room(
+    mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: RoomLack, height: int | None
+) -> Diagnostic:
+    """Return D089: on arcs the fleet expands into the ground, above its height limit, or into an obstacle.
+
+    lack : the least violation of the arcs that were tried
+    height : a `max_height` with which the fleet rises over all obstacles, metres, if there is one
+    """
     origins, metres = mission.origins, at_least(lack.metres)
     if lack.of is None:
         what, beside = "the ground or its greatest height", origins.key(("rules",), "the rules")
@@ -177,6 +183,12 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Roo
     where = origins.key(fleet.path if picture is None else picture.path)
     to = "on its way home" if picture is None else "on its way to this picture"
     far = straight_spacing(fleet.apart)
+    help_ = (
+        f"place its pictures {metres} m farther away from there, make them "
+        f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones"
+    )
+    if height is not None:
+        help_ = f"write `rules: {{max_height: {height}}}`, or {help_}"
     return Diagnostic(
         "D089",
         f"{fleet.words} swells into {what} {to}: {metres} m are missing",
@@ -187,17 +199,21 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Roo
             f"straight ways need no such room: goals and pads {at_least(far)} m apart on a level, "
             f"{at_least(far / stretch(fleet.apart))} m upright, before and after, allow them",
         ),
-        f"place its pictures {metres} m farther away from there, make them "
-        f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones",
+        help_,
     )
 
 
 def no_way_over(
-    mission: MissionIR, fleet: Fleet, picture: Picture | None, lacks: tuple[RoomLack, RoomLack]
+    mission: MissionIR,
+    fleet: Fleet,
+    picture: Picture | None,
+    lacks: tuple[RoomLack, RoomLack],
+    height: int | None,
 ) -> Diagnostic:
     """Return D160: an obstacle is in the straight paths of a fleet, and the fleet cannot rise over it.
 
     lacks : the violation of the straight paths, and the least violation of paths that rise
+    height : as in ``no_room``
     """
     straight, risen = lacks
     what, beside = _in_the_way(mission, straight)
@@ -209,9 +225,8 @@ def no_way_over(
     if risen is not straight:
         over, rule = _in_the_way(mission, risen)
         note += f"; where all rise over it by the same, {at_least(risen.metres)} m are missing of {over}"
-        most = mission.rules.max_height
-        if risen.of is None or risen.of.owner == CEILING:
-            help_ = f"write `rules: {{max_height: {ceil((most or 0.0) + risen.metres)}}}`, or {help_}"
+        if height is not None:
+            help_ = f"write `rules: {{max_height: {height}}}`, or {help_}"
         labels += [] if rule == beside else [rule]
     return Diagnostic(
         "D160", f"{fleet.words} has no way {to} that is clear of {what}", tuple(labels), (note,), help_

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf, isfinite
+from math import ceil, inf, isfinite
 
 import numpy as np
 
@@ -11,10 +11,11 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import CEILING
 from shotc.ir.show import Fleet, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room, no_way_over
-from shotc.show.assignment.over import MoveSurroundings, MoveTask, over
+from shotc.show.assignment.over import LiftedCandidate, MoveSurroundings, MoveTask, over
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Ends, Heights, led
 from shotc.show.geom.arcs import Free, Gaps
@@ -25,6 +26,8 @@ from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.lifted_move import Course
 from shotc.show.solvers.move import fastest
 
+HEIGHT_TRIES = 4
+"""Most greatest heights that are tried for the help of a fault."""
 MARGIN_SHARE = 5e-4
 """Share by which arcs keep more than the separation, if both formations do: half of ``apart.ROOMIER``."""
 
@@ -33,10 +36,12 @@ class Mover:
     """Finds the moves of one fleet.
 
     faults : of moves without enough free space
+    advises : whether a fault says which greatest height would do, which takes further tries
     """
 
-    def __init__(self, mission: MissionIR, fleet: Fleet) -> None:
-        self.mission, self.fleet = mission, fleet
+    def __init__(self, mission: MissionIR, fleet: Fleet, *, advises: bool = True) -> None:
+        self.mission, self.fleet, self._advises = mission, fleet, advises
+        self._too_high = 0.0
         self.faults: list[Diagnostic] = []
         self._scale = np.array([1.0, 1.0, stretch(fleet.apart)])
         surroundings = room_of(mission, fleet)
@@ -61,9 +66,10 @@ class Mover:
         lifted = over(ends, task, Course(move.pivot, Gaps(1.0, 1.0) if free is None else free))
         if lifted is not None and lifted.lack.metres <= ROUNDING_M:
             return lifted.move
-        if lifted is not None:
-            lack = min(lack, lifted.lack, key=lambda one: one.metres)
-        self._lacking(no_room(self.mission, self.fleet, picture, lack))
+        least = lack if lifted is None else min(lack, lifted.lack, key=lambda one: one.metres)
+        if not self.faults:
+            height = self._height(ends, pace, picture, lifted)
+            self.faults.append(no_room(self.mission, self.fleet, picture, least, height))
         return move
 
     def straight(self, ends: Ends, pace: float, picture: Picture | None) -> Motion:
@@ -84,15 +90,33 @@ class Mover:
             if swell.metres <= ROUNDING_M:
                 return arcs
         least = lack if lifted is None else lifted.lack
-        self._lacking(no_way_over(self.mission, self.fleet, picture, (lack, least)))
+        if not self.faults:  # later moves start where the faulty one would end
+            height = self._height(ends, pace, picture, lifted)
+            self.faults.append(no_way_over(self.mission, self.fleet, picture, (lack, least), height))
         return move
 
-    def _lacking(self, fault: Diagnostic) -> None:
-        """Keep only the first fault of a fleet's moves, because later moves start where the faulty one would
-        end.
+    def _height(
+        self, ends: Ends, pace: float, picture: Picture | None, lifted: LiftedCandidate | None
+    ) -> int | None:
+        """Return a `max_height` with which the move is clear, metres; None if another height does not help.
+
+        lifted : the move that rises, with its violation
         """
-        if not self.faults:
-            self.faults.append(fault)
+        most, lack = self.mission.rules.max_height, None if lifted is None else lifted.lack
+        if most is None or lack is None or not (lack.of is None or lack.of.owner == CEILING):
+            return None
+        self._too_high = lack.metres
+        for _ in range(HEIGHT_TRIES if self._advises else 0):
+            most = ceil(most + self._too_high)
+            rules = self.mission.rules._replace(max_height=float(most))
+            trial = Mover(self.mission._replace(rules=rules), self.fleet, advises=False)
+            trial.move(*ends, pace, picture)
+            if not trial.faults:
+                return most
+            if trial._too_high <= 0.0:  # something else is in the way
+                return None
+            self._too_high = trial._too_high
+        return None
 
     def _task(self, pace: float, picture: Picture | None) -> MoveTask:
         easing = "ease-in-out" if picture is None else picture.easing

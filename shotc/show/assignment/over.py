@@ -22,10 +22,12 @@ from shotc.show.assignment.swell import Ends, Heights, flown_of
 from shotc.show.goals.room import DisplaySurroundings, RoomLack
 from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, rising_paths
 
-ROUNDS = 4
+ROUNDS = 6
 """Most heights that are tried, each higher by what the one before lacks."""
 LACK_RATIO, BEYOND_M = 1.1, 0.02
-"""Rise for each metre of a missing clearance, and beyond it, metres."""
+"""Rise for each metre of a missing clearance in the first round, and beyond it, metres."""
+GROWTH_RATIO = 1.5
+"""Growth of that ratio from round to round: beside a steep obstacle a rise gains less clearance."""
 
 
 class LiftedCandidate(NamedTuple):
@@ -76,7 +78,7 @@ def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
     for every in (False, True):
         need = partial(_need, ends, course.pivot, task.sky.room, every=every)
         paths, higher = rising_paths(ends, course, need), 0.0
-        for _ in range(ROUNDS):
+        for k in range(ROUNDS):
             shape = lifted(ends, course, [path.higher(higher) for path in paths], drive)
             if shape is None:
                 break
@@ -87,7 +89,7 @@ def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
                 return best
             if lack.of is None or lack.metres >= OUTSIDE_M:  # a greater height does not help
                 break
-            higher += LACK_RATIO * lack.metres + BEYOND_M
+            higher += LACK_RATIO * GROWTH_RATIO**k * lack.metres + BEYOND_M
     return best
 
 

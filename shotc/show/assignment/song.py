@@ -33,7 +33,9 @@ def song_faults(mission: MissionIR, end: float) -> list[Diagnostic]:
         return []
     note = f"it begins at {plain(music.start)} s and is {plain(length)} s long"
     message = f"the song ends {at_least(silent)} s before the last picture does"
-    help_ = f"shorten the show by {at_least(silent)} s, or take a longer song"
+    help_ = (
+        f"shorten the show by {at_least(silent)} s, or take a song of {at_least(length + silent)} s or more"
+    )
     return [Diagnostic("D127", message, (label,), (note,), help_)]
 
 

@@ -304,12 +304,18 @@ def test_broken_shows_are_told(name: str) -> None:
         (lambda p: p.update(points=[]), "no list of 1 to"),
         (lambda p: p.update(takeoffTime="soon"), "takeoffTime` is no time"),
         (lambda p: p["points"][3].__setitem__(0, 0.0), "points[3]`, 0 s, does not come after"),
-        (lambda p: p["points"][2].__setitem__(1, [0, None, 0]), "points[2]` is no time, place"),
+        (
+            lambda p: p["points"][2].__setitem__(1, [0, None, 0]),
+            "the place of `swarm.drones[0].settings.trajectory.points[2]` is no list of 3 finite",
+        ),
         (
             lambda p: p["points"][2].__setitem__(2, [[0, 0, 0]] * 3),
-            "points[2]` has control points that make no",
+            "points[2]` has 3 control points, which make no",
         ),
-        (lambda p: p["points"][2].__setitem__(0, float("nan")), "points[2]` is no time"),
+        (
+            lambda p: p["points"][2].__setitem__(0, float("nan")),
+            "the time of `swarm.drones[0].settings.trajectory.points[2]` is no number",
+        ),
     ],
 )
 def test_broken_curves_are_told_with_their_element(change: Callable[[Any], object], said: str) -> None:

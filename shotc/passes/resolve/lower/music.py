@@ -92,6 +92,7 @@ def _rising(spec: MusicSpec, origins: OriginMap) -> tuple[float, ...] | Diagnost
     back = next((k for k in range(1, len(beats)) if beats[k] <= beats[k - 1]), None)
     if back is None:
         return beats
+    later = next((f" and before {beat:g} s" for beat in beats[back:] if beat > beats[back - 1]), "")
     return Diagnostic(
         "D120",
         f"beat {back + 1} falls at {beats[back]:g} s, and the one before it at {beats[back - 1]:g} s",
@@ -99,7 +100,7 @@ def _rising(spec: MusicSpec, origins: OriginMap) -> tuple[float, ...] | Diagnost
             origins.value((*PATH, "beats", back)),
             origins.value((*PATH, "beats", back - 1), "the one before it"),
         ),
-        help="write every beat once, in the order in which they fall",
+        help=f"write a time after {beats[back - 1]:g} s{later}, or leave this beat out",
     )
 
 
