@@ -55,7 +55,7 @@ def page(plan: VerifiedIR, simulated: Simulated | None = None) -> str:
         ("On the ground", _table(_ground(plan, site))),
         ("When the link is lost", _list(_link(plan))),
         ("Wind", _list(_wind(mission, simulated)) + _flown(simulated)),
-        ("Not judged", _list(_open(mission))),
+        ("Not judged", _list(_open(mission, site))),
     )
     title = f"{escape(mission.name)}: validation report"
     present = [(name, content) for name, content in sections if content]
@@ -91,7 +91,7 @@ def _facts(plan: VerifiedIR, site: Volumes) -> Iterator[Row]:
             f"{place.lat_deg:.7f}, {place.lon_deg:.7f} deg (WGS84), {place.alt:g} m above sea level",
         )
     yield "in the air", f"{flown.end:.1f} s from the first motion to the last"
-    yield "greatest height", f"{site.flight.top - site.ground:.1f} m over the lowest pad, bodies included"
+    yield "greatest height", f"{site.flight.top - site.ground:.1f} m over {site.base}, bodies included"
     far = float(np.linalg.norm(site.flight.corners, axis=1).max())
     yield "farthest from the origin", f"{far:.1f} m"
 
@@ -147,7 +147,8 @@ def _site(mission: MissionIR, site: Volumes) -> str:
     zones = _table((_zone(zone) for zone in mission.zones), ("zone", "rule", "height"))
     legend = (
         '<p class="legend"><span class="flight"></span> flight geography <span class="contingency"></span> '
-        'contingency volume <span class="risk"></span> ground risk buffer <span class="out"></span> zones</p>'
+        'contingency volume <span class="risk"></span> ground risk buffer <span class="out"></span> zones '
+        '<span class="house"></span> buildings and scenes</p>'
     )
     corners = _table(_corners(mission, site), ("fence", "latitude, deg", "longitude, deg"))
     about = (
@@ -223,13 +224,15 @@ def _ground(plan: VerifiedIR, site: Volumes) -> Iterator[Row]:
     rules = mission.rules
     yield (
         "height of the contingency volume",
-        f"{site.contingency.top - site.ground:.1f} m over the lowest pad",
+        f"{site.contingency.top - site.ground:.1f} m over {site.base}",
     )
     if rules.max_height is not None and isfinite(rules.max_height):
         yield "greatest height allowed", f"{rules.max_height:g} m above ground"
     yield "clearance from the ground", f"{rules.ground_clearance:g} m, but over the pads"
-    ground = "terrain" if mission.terrain is not None else "flat ground"
+    ground = "flat ground" if mission.terrain is None else f"terrain (`{mission.terrain.file}`)"
     yield "ground", f"the mission knows {ground}"
+    for mesh in mission.meshes:
+        yield mesh.kind, f"`{mesh.file}`; drones keep {rules.obstacle_clearance:g} m from it"
     for target in mission.targets:
         moves = "moves" if target.track is not None else "stands"
         yield f"target {target.name}", f"{moves}; drones keep {rules.target_clearance:g} m from it"
@@ -295,11 +298,13 @@ def _flown(simulated: Simulated | None) -> str:
     return "\n".join(["", about, *tables, _list(simulated.told)])
 
 
-def _open(mission: MissionIR) -> Iterator[str]:
+def _open(mission: MissionIR, site: Volumes) -> Iterator[str]:
     yield "Failures of drones, of receivers and of batteries, and people who enter the site."
     yield "Deviations of drones from the plan: the margins of separation and the volumes allow for them."
     if mission.terrain is None:
         yield "The shape of the ground: it is taken to be flat."
+    elif any(mission.terrain.height(float(x), float(y)) is None for x, y in site.risk.corners):
+        yield f"The ground beyond `{mission.terrain.file}`, over which part of the ground risk buffer lies."
 
 
 def _table(rows: Iterable[Row], head: Row = ()) -> str:

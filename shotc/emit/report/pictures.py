@@ -12,6 +12,7 @@ from shotc.emit.site.volumes import AreaOutline, Volumes
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import MissionIR
+from shotc.ir.obstacle_mesh import body_prisms
 
 WIDTH, MAP_HEIGHT, PLOT_HEIGHT = 680.0, 460.0, 190.0
 MARGIN_SHARE = 0.05
@@ -19,7 +20,7 @@ LEFT, RIGHT, BOTTOM, TOP = 46.0, 12.0, 30.0, 12.0
 
 
 def site_map(mission: MissionIR, volumes: Volumes) -> str:
-    """Return the map with volumes, zones, pads, audiences and a scale bar, North up."""
+    """Return the map with volumes, buildings, zones, pads, audiences and a scale bar, North up."""
     seats = [display.viewpoint for display in mission.displays if display.viewpoint is not None]
     zones = [(zone, ground_plan(zone.solid)) for zone in mission.zones]
     risk = volumes.risk.corners
@@ -40,6 +41,8 @@ def site_map(mission: MissionIR, volumes: Volumes) -> str:
         area(volumes.contingency, "contingency"),
         area(volumes.flight, "flight"),
     ]
+    solids = [prism for mesh in mission.meshes for prism in body_prisms(mesh)]
+    parts += [f'<polygon class="house" points="{_points(put(ground_plan(each)))}"/>' for each in solids]
     for zone, corners in zones:
         parts.append(f'<polygon class="zone {zone.keep}" points="{_points(put(corners))}"/>')
         x, y = put(corners).mean(axis=0)[0], put(corners)[:, 1].min() - 4.0

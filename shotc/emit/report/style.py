@@ -22,6 +22,7 @@ svg text { font: 11px Arial, sans-serif; fill: #3a444e; }
 .flight { fill: #cfe3fb; stroke: #2a6cc0; background: #cfe3fb; }
 .zone { fill: none; stroke: #3a444e; stroke-dasharray: 5 3; }
 .zone.out { fill: #d7a3a0; fill-opacity: 0.6; }
+.house { fill: #a8a097; }
 .pad { fill: #1d2329; }
 .seat { fill: #7a3fb0; }
 .axis { fill: none; stroke: #3a444e; }
@@ -32,5 +33,6 @@ svg text { font: 11px Arial, sans-serif; fill: #3a444e; }
 .legend span { display: inline-block; width: 4mm; height: 3mm; margin: 0 1mm 0 3mm; }
 .legend span { border: 1px solid #8a949e; }
 .legend span.out { border-style: dashed; }
+.legend span.house { background: #a8a097; }
 * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 """.strip()

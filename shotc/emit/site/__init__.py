@@ -109,7 +109,7 @@ def _mark(folder: Element, name: str, style: str = "", about: str = "") -> Eleme
 
 def _volumes(folder: Element, origin: GeoOrigin, site: Volumes) -> None:
     flight, margin = site.flight, site.contingency
-    high = f"up to {flight.top - site.ground:.1f} m over the lowest pad; the hull of all flights"
+    high = f"up to {flight.top - site.ground:.1f} m over {site.base}; the hull of all flights"
     _polygon(_mark(folder, "flight geography", "flight", high), origin, flight)
     wide = f"{site.across:.1f} m across and {site.upright:.1f} m upright about the flight geography"
     _polygon(_mark(folder, "contingency volume", "contingency", wide), origin, margin)

@@ -2,9 +2,9 @@
 
 The flight geography is the hull of the control points, which contains the curves at every instant. The margin
 around it is the sum of what an operator usually accounts for: position errors, a second of reaction, and the
-stopping distance. The ground risk buffer is as wide as the volume is high (1:1). The constants are
-assumptions of this module and do not come from an authority's text. The margins are a proposal; the authority
-decides.
+stopping distance. The ground risk buffer is as wide as the volume is high (1:1). Over terrain that height
+counts from the lowest ground in the buffer, which may be far below the pads. The constants are assumptions of
+this module and do not come from an authority's text. The margins are a proposal; the authority decides.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from scipy.spatial import ConvexHull, QhullError
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.rings import ring
 from shotc.ir.limits import Limits
+from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import TrajectoryIR
 
 OFF_ACROSS_M, OFF_UPRIGHT_M = 7.0, 4.0
@@ -53,7 +54,9 @@ class Volumes(NamedTuple):
     contingency : the flight geography with the margins
     risk : the ground below and around
     across, upright, buffer : widths of the margins, metres
-    ground : z from which heights count, that of the lowest pad
+    ground : z from which heights count: of the lowest pad, or of the lowest ground in the buffer if there is
+        terrain and that is lower
+    base : what that is, in words
     """
 
     flight: AreaOutline
@@ -63,6 +66,7 @@ class Volumes(NamedTuple):
     upright: float
     buffer: float
     ground: float
+    base: str
 
 
 def volumes(flown: TrajectoryIR) -> Volumes:
@@ -84,16 +88,33 @@ def volumes(flown: TrajectoryIR) -> Volumes:
     own = widened(np.unique(flat, axis=0), radius)
     top = float(points[:, 2].max()) + radius
     margin = widened(own, across)
-    buffer = top + upright - ground
+    risk = _risk(margin, top + upright, ground, mission.terrain)
     return Volumes(
         AreaOutline(own, top),
         AreaOutline(margin, top + upright),
-        AreaOutline(widened(margin, buffer), ground),
+        risk,
         across,
         upright,
-        buffer,
-        ground,
+        top + upright - risk.top,
+        risk.top,
+        "the lowest pad" if risk.top == ground else "the lowest ground below it",
     )
+
+
+def _risk(margin: Array, top: float, ground: float, terrain: Terrain | None) -> AreaOutline:
+    """Return the ground risk buffer about an outline (k, 2), on the lowest ground in it.
+
+    top, ground : z of the volume's top and of the lowest pad, metres
+    """
+    while True:
+        corners = widened(margin, top - ground)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if terrain is None or not np.isfinite(ground):
+            return AreaOutline(corners, ground)
+        lowest, _ = terrain.span((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
+        if lowest >= ground:
+            return AreaOutline(corners, ground)
+        ground = lowest  # the buffer is wider then, and may contain lower ground
 
 
 def _stopping(speed: float, limits: Limits) -> float:

@@ -24,6 +24,8 @@ from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 from tests.support.show_plans import display, mission, plan
+from tests.support.standing_worlds import SIDE, STEP, house, terrain
+from tests.support.surfaces import grid
 
 KML = "{http://www.opengis.net/kml/2.2}"
 SHOW = show_flights.plan()
@@ -203,3 +205,35 @@ def test_an_audience_in_the_ground_risk_buffer_is_told() -> None:
     ):
         (artifact,) = REPORT.emit(plan(mission(displays=(seat,)))).artifacts
         assert words in artifact.data.decode()
+
+
+def over_a_slope(fall: float) -> VerifiedIR:
+    """A show on pads at z = 0 over ground that falls by so many metres to each metre to the South."""
+    y = (np.arange(SIDE) - SIDE // 2) * STEP
+    shape = grid(np.repeat(np.minimum(fall * y, 0.0)[None], SIDE, axis=0), STEP)
+    built = (house((30.0, 20.0, 5.0), (10.0, 10.0, 10.0)),)
+    return plan(mission(terrain=terrain(shape), meshes=built))
+
+
+def test_over_terrain_the_ground_risk_buffer_is_as_wide_as_the_flight_is_high_over_its_lowest_ground() -> (
+    None
+):
+    flat, slope = volumes(over_a_slope(0.0).trajectory), volumes(over_a_slope(0.3).trajectory)
+    assert flat.base == "the lowest pad"
+    assert flat.buffer == volumes(plan().trajectory).buffer
+    south = float(slope.risk.corners[:, 1].min())
+    assert slope.base == "the lowest ground below it"
+    assert slope.ground <= 0.3 * south  # the ground at the southern end of the buffer
+    assert slope.ground >= 0.3 * (south - STEP) - 1e-9
+    assert slope.buffer == pytest.approx(slope.contingency.top - slope.ground)
+    assert slope.buffer > flat.buffer + 10.0
+
+
+def test_the_report_of_a_show_over_terrain_names_what_stands_there_and_draws_it() -> None:
+    (artifact,) = REPORT.emit(over_a_slope(0.3)).artifacts
+    page = artifact.data.decode()
+    assert "the mission knows terrain (`relief.csv`)" in page
+    assert "`houses.geojson`; drones keep 2 m from it" in page
+    assert "over the lowest ground below it" in page
+    assert page.count('<polygon class="house"') == 1
+    assert "beyond `relief.csv`" not in page
