@@ -187,7 +187,8 @@ def _next(shot: _Shot, now: _Round) -> _Round:
         return _unsolved(shot, after)
     curve = curve_of(shot.subject, shot.breaks, solution)
     gap = gap_in(shot.subject.drone, shot.around, curve)
-    after = replace(after, first=now.first or failed, gap=gap, course=curve)
+    start = (solution.states, solution.inputs)
+    after = replace(after, first=now.first or failed, gap=gap, course=curve, start=start)
     if gap is not None:
         return _tightened(after, gap)
     # The cost before does not contain new occluders.
@@ -240,7 +241,7 @@ def _unsolved(shot: _Shot, after: _Round) -> _Round:
 
 
 def _tightened(after: _Round, gap: UnprovedMoment) -> _Round:
-    """Return the state after a round that does not hold; the initial guess is the same."""
+    """Return the state after a round that does not hold: with clearances, or limits, that leave it less."""
     if gap.unit == "m":
         return replace(
             after, reach=2 * after.reach, use=after.use._replace(ends=NARROWER_SHARE * after.use.ends)
@@ -255,7 +256,6 @@ def _improved(after: _Round, latest: _Best, *, anew: bool) -> _Round:
     return replace(
         after,
         best=latest if solution.objective < least else best,
-        start=(solution.states, solution.inputs),
         ended=not solution.objective < (1 - GAIN_SHARE) * least,
     )
 
