@@ -67,6 +67,11 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: not any(item.iter_markers("long")) and not any(item.iter_markers("slow")))
 
 
+def pytest_collection(session):
+    """Make no garbage collector look at what is imported and collected: all of it stays."""
+    gc.disable()
+
+
 def pytest_collection_finish(session):
     """Refuse a run whose groups are not kept together; spare the collector modules and tests, which stay."""
     if session.config.getoption("loadgroup", False):
@@ -75,6 +80,7 @@ def pytest_collection_finish(session):
             raise pytest.UsageError(f"pytest-xdist does not see the group of {loose[0]}")
     gc.collect()
     gc.freeze()
+    gc.enable()
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

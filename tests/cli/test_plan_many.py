@@ -57,6 +57,7 @@ def test_missions_of_a_folder_are_planned_each_into_its_own(run: Run, missions: 
     }
 
 
+@pytest.mark.slow
 def test_a_batch_that_was_stopped_goes_on_from_there(run: Run, missions: Path, tmp_path: Path) -> None:
     """What is planned is not planned again, unless a file that was read or written has changed since."""
     out = tmp_path / "out"

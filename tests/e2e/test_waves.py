@@ -46,6 +46,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.long
 def test_the_plan_sweeps_from_the_left_and_from_below_and_meets_its_beat(folder: Path) -> None:
     plan = json.loads((folder / "out" / "plan.json").read_text())
     flight = plan["fleets"][0]
@@ -63,6 +64,7 @@ def test_the_plan_sweeps_from_the_left_and_from_below_and_meets_its_beat(folder:
         assert np.ptp(half) == pytest.approx(wave["time"], abs=0.1)
 
 
+@pytest.mark.long
 def test_verify_proves_it_again_and_refuses_another_wave(folder: Path) -> None:
     done = run("verify", "out/plan.json", folder=folder)
     assert done.code == 0, done.err
@@ -79,6 +81,7 @@ def test_verify_proves_it_again_and_refuses_another_wave(folder: Path) -> None:
     assert "wave.time" in run("verify", "other.json", folder=folder).err
 
 
+@pytest.mark.long
 def test_a_wave_that_brings_drones_too_near_says_which_would_not(folder: Path) -> None:
     (folder / "long.yaml").write_text(
         MISSION.replace("wave: 3 s", "wave: 20 s").replace("at: {beat: 61},", "")

@@ -35,10 +35,12 @@ def test_a_mission_of_the_tree_flies_as_it_says(path: Path) -> None:
     assert judge(case_of(path, "none")) == []
 
 
+@pytest.mark.long
 def test_the_refined_flight_is_as_it_says() -> None:
     assert judge(case_of(ROOT / "specs/tower-fly-past.yaml")) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", few(["tower-fly-past", "runner-three-cameras"], ["tower-fly-past"]))
 def test_the_files_of_an_ardupilot_fly_as_they_say(name: str) -> None:
     case = case_of(ROOT / f"specs/{name}.yaml", "none", "ardupilot")

@@ -302,6 +302,7 @@ def test_a_mission_file_that_flies_otherwise_is_seen(case: Case, rule: str) -> N
     assert rule in {finding.rule for finding in reflights(found)}
 
 
+@pytest.mark.long
 def test_a_note_that_says_less_than_is_true_is_seen(case: Case) -> None:
     """The heading, the position and the film's seconds of a file are those that its note says."""
     (note,) = (n for n in case.notes if "cam1.plan" in n)

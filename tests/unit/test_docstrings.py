@@ -33,6 +33,7 @@ def shapeless(text: str) -> list[str]:
     return [f.name for f in functions(text) if not SHAPE.search(ast.get_docstring(f) or "")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_public_functions_with_arrays_state_their_shapes(folder: str) -> None:
     files = sorted((PACKAGE / folder).rglob("*.py"))

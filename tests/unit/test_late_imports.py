@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from tests.experiments.bench.late_imports import BY_NAME, LEAST, PACKAGE, LateImport, late_imports
 
 ROW = re.compile(r"^\| (?:`(?P<module>[\w.]+)`|by name: .+) \| `(?P<file>[\w/]+[.]py)` \| (?P<ms>\d+) \|$")
@@ -17,6 +19,7 @@ def table() -> dict[LateImport, int]:
     return {LateImport(row["module"] or BY_NAME, row["file"]): int(row["ms"]) for row in rows}
 
 
+@pytest.mark.slow
 def test_every_import_inside_a_function_is_in_the_table_and_every_row_is_one():
     assert sorted(table()) == sorted(late_imports())
 

@@ -45,6 +45,7 @@ def test_a_leg_without_times_has_none(leg):
     assert place_times(leg)
 
 
+@pytest.mark.slow
 def test_lateness_is_of_the_worst_stretch(leg):
     asked = place_times(leg)
     s = np.union1d(np.linspace(leg.curve.start, leg.curve.end, 50), place_times(leg).s)

@@ -75,6 +75,7 @@ def test_who_is_asked_nothing_of_stays():
     assert np.abs(done.plan.aim - np.array(AIM)).max() < 1e-3
 
 
+@pytest.mark.slow
 def test_the_motion_is_that_of_its_inputs_within_all_limits():
     planner = Framing(problem(N))
     for known, last in flown(2).asked[::10]:

@@ -209,13 +209,14 @@ def test_all_values_and_derivatives_are_numbers(kind: Any, planes: int, where: s
                 assert np.isfinite(part).all(), name
 
 
-@pytest.mark.parametrize("where", PLACES)
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "planes"), KINDS)
-def test_no_slope_jumps(kind: Any, planes: int, where: str) -> None:
-    made, rng = kind_of(kind, planes), np.random.default_rng(11)
-    for _ in range(DRAWS):
-        z, p = point(kind, planes, PLACES[where](drawn(rng)), rng)
-        here = np.array(made.gradient(z, p)[1]).ravel()
-        for step in rng.normal(0, NUDGE, (4, len(z))):
-            there = np.array(made.gradient(z + step, p)[1]).ravel()
-            assert np.abs(there - here).max() < SMOOTH * (1 + np.abs(here).max())
+def test_no_slope_jumps(kind: Any, planes: int) -> None:
+    for where, moved in PLACES.items():
+        made, rng = kind_of(kind, planes), np.random.default_rng(11)
+        for _ in range(DRAWS):
+            z, p = point(kind, planes, moved(drawn(rng)), rng)
+            here = np.array(made.gradient(z, p)[1]).ravel()
+            for step in rng.normal(0, NUDGE, (4, len(z))):
+                there = np.array(made.gradient(z + step, p)[1]).ravel()
+                assert np.abs(there - here).max() < SMOOTH * (1 + np.abs(here).max()), where

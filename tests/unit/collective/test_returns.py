@@ -71,6 +71,7 @@ def nearest(ir: TrajectoryIR, breaks: np.ndarray, coef: np.ndarray) -> float:
     return min(float(pdist(at[:, k]).min()) for k in range(at.shape[1]))
 
 
+@pytest.mark.long
 def test_every_second_has_a_return_that_is_apart_within_limits_and_ends_on_pads() -> None:
     ir = plan_of(MISSION).trajectory
     flight, limits = ir.fleets[0], ir.keyframes.mission.fleets[0].limits
@@ -102,6 +103,7 @@ def test_every_second_has_a_return_that_is_apart_within_limits_and_ends_on_pads(
     assert braked > 5
 
 
+@pytest.mark.long
 def test_two_fleets_are_proved_against_each_other() -> None:
     text = MISSION.replace("world:", LATE + "world:") + BESIDE
     found = returns(text, 7.0)
@@ -110,6 +112,7 @@ def test_two_fleets_are_proved_against_each_other() -> None:
     assert min(r.between[0].worst for r in found) > 10.0
 
 
+@pytest.mark.long
 def test_a_return_that_outlasts_the_endurance_is_told_with_the_seconds_that_would_do() -> None:
     whole = plan_of(MISSION)
     held = returns(MISSION, 1.0)

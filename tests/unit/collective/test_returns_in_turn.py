@@ -35,6 +35,7 @@ shots:
 """The way home of the swarm leads below the other fleet's drone, whose flare burns until 57 s."""
 
 
+@pytest.mark.long
 def test_groups_whose_ways_home_cross_give_way_to_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
     plan = compiled_text(CROSSING).plan
     assert plan is not None

@@ -13,6 +13,12 @@ from shotc.diag.registry import FAMILIES, registry
 from tests.support.front_passes import placed
 
 CHECKED = [info for info in registry().values() if info.phase == "check"]
+SLOW = ("M031",)
+"""Codes of which a dozen remedies are tried."""
+FAILING = [
+    pytest.param(info, id=info.code, marks=[pytest.mark.slow] if info.code in SLOW else [])
+    for info in CHECKED
+]
 
 
 def unescaped(text: str) -> bytes:
@@ -35,7 +41,7 @@ def check(tmp_path_factory: pytest.TempPathFactory) -> Check:
     return checked
 
 
-@pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
+@pytest.mark.parametrize("info", FAILING)
 def test_the_failing_example_raises_its_code_alone(info: CodeInfo, check: Check) -> None:
     found = check(info.failing)
     assert {d.code for d in found} == {info.code}, found
@@ -46,7 +52,7 @@ def test_the_passing_example_is_clean(info: CodeInfo, check: Check) -> None:
     assert check(info.passing) == []
 
 
-@pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
+@pytest.mark.parametrize("info", FAILING)
 def test_a_diagnostic_reads_as_one_should(info: CodeInfo, check: Check) -> None:
     for d in check(info.failing):
         assert d.labels, "it points at a line"

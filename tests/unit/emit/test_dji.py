@@ -159,6 +159,7 @@ def test_few_points_keep_the_orbit_under_all_models_and_the_note_says_it(orbit):
     assert len(points) < 60
 
 
+@pytest.mark.slow
 def test_the_same_plan_gives_the_same_bytes(orbit):
     assert emitted(orbit_plan()) == orbit
 

@@ -76,7 +76,7 @@ def test_other_machines_are_told_what_is_left_to_the_hand() -> None:
     assert ardupilot.notes[-2] == f"ardupilot cam1: {by_hand}"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_files_of_dji_are_told_so_too() -> None:
     emission = DJI.emit(retold(orbit_plan(), optics=FAST, autopilot="pilot-2"))
     assert any("as no file holds it: aperture f/0.95" in note for note in emission.notes)

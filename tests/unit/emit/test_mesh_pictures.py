@@ -101,6 +101,7 @@ def test_a_house_hides_what_is_behind_it_and_not_what_is_before():
     assert SUBJECT[2] > SUBJECT[0]
 
 
+@pytest.mark.long
 def test_what_is_behind_the_eye_in_part_is_drawn_as_far_as_it_is_before_it():
     street = box_mesh((12.0, -40.0, 4.0), (8.0, 300.0, 8.0))
     pixels = drawn(mission(street))

@@ -139,7 +139,7 @@ def test_the_viewer_s_own_check_accepts_the_file(rrd: Path) -> None:
     assert "1 file" in done.stdout + done.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_two_runs_record_the_same(rrd: Path, tmp_path: Path) -> None:
     again = tmp_path / "again.rrd"
     again.write_bytes(EMITTER.emit(orbit_plan()).artifacts[0].data)

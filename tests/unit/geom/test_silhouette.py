@@ -198,3 +198,9 @@ def test_what_is_seen_as_a_triangle_is_an_outline() -> None:
     assert len(outline) == 3
     ahead_of = np.array([[1.0, 0.0, 0.2], [-1.0, 0.5, 0.0], [-1.0, -0.5, 0.0]])
     assert project_loop(view(0.0, 0.0, 1.2, ASPECT), ahead_of).shape == (3, 2)
+
+
+def test_a_plate_that_is_seen_edge_on_has_no_outline() -> None:
+    plate = Prism(((5.0, -1.0), (7.0, -1.0), (7.0, 1.0), (5.0, 1.0)), 0.0, 0.0)
+    assert solid_outlines(view(0.0, 0.0, 1.2, ASPECT), (0.0, 0.0, 0.0), plate) == []
+    assert len(solid_outlines(view(0.0, 0.0, 1.2, ASPECT), (0.0, 0.0, 1.0), plate)) == 1

@@ -82,6 +82,7 @@ def test_each_is_told_with_its_table_and_line(name: str) -> None:
     assert not report.holds
 
 
+@pytest.mark.slow
 def test_a_bomb_is_not_unpacked() -> None:
     assert len(bomb("a.csv")) < 2_000_000
     (told,) = verified(("show.zip", bomb("a.csv")), text=MISSION).diagnostics
@@ -103,6 +104,7 @@ def test_what_is_no_archive_is_told(data: bytes, said: str) -> None:
     assert said in told.message
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(data=st.data())
 def test_no_bytes_make_a_traceback(data: st.DataObject) -> None:

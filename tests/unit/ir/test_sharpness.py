@@ -60,6 +60,7 @@ def soft(camera: str, extra: str = "", model: str = "x500") -> list[str]:
     return [d.code for d in found if d.code in ("V061", "V062")]
 
 
+@pytest.mark.slow
 def test_the_columns_of_focus_are_those_of_the_thin_lens() -> None:
     made = plan(f"{LENS}, aperture: f/2")
     poses = camera_rows(made)
@@ -139,6 +140,7 @@ rules: {ground_clearance: 0.1}
     assert [c.limit for c in done.plan.certificate if c.constraint == "runner motion blur"] == [5.0]
 
 
+@pytest.mark.slow
 def test_the_background_of_a_turning_camera_goes_as_fast_as_it_turns() -> None:
     made = plan(f"{LENS}, shutter: 1/50 s")
     poses = camera_rows(made)

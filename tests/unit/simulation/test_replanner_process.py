@@ -39,6 +39,7 @@ def asked(name, now=0.0, seconds=30.0):
         return process.chase(problem(STAGES)).replan(situation(STAGES, now), still(now))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
@@ -61,6 +62,7 @@ def test_an_answer_that_cannot_be_sent_is_a_failure_and_not_the_end_of_the_proce
                 planner.replan(situation(STAGES, now), still(now))
 
 
+@pytest.mark.slow
 def test_a_replanner_that_hangs_in_c_is_killed_and_asked_again_in_a_new_process(monkeypatch):
     with closing(ReplannerProcess(f"{FAILING}:HANGS_LATER", 0.5)) as process:
         planners = [process.chase(problem(STAGES)) for _ in range(2)]
@@ -102,6 +104,7 @@ def test_what_cannot_be_flown_is_refused_with_a_reason(plugin, reason):
     assert fault_of(answer, still().times) == reason
 
 
+@pytest.mark.slow
 def test_a_plan_in_another_process_is_the_same_to_the_last_digit():
     known = situation(STAGES, place=np.array([0.3, -7.5, 3.1]))
     task = problem(STAGES)

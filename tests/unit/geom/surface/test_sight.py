@@ -140,11 +140,14 @@ def test_nothing_hides_nothing():
     assert hidden(surface_of(rectangle(1, (0, 1), (0, 1))), nobody).shape == (0, 8, 8)
 
 
-@pytest.mark.parametrize("size", [1e-2, 1.0, 1e2])
-def test_what_stands_behind_the_ends_of_all_rays_is_left_out_whatever_its_size(size: float):
-    """A quarter of a micrometre before the ends a triangle may stop rays, a millimetre behind them none."""
-    boards = north(20.0, 2.0)
-    wall = np.array([[[-size, 0.0, -size], [size, 0.0, -size], [0.0, 0.0, size]]])
-    for y, met in ((20.0 - 2.5e-7, True), (20.0 + 1e-3, False), (-20.0, False)):
-        found = sight.in_the_way(surface_of(wall + np.array([0.0, y, 0.0])), boards, 4)
-        assert bool(len(found)) is met
+@pytest.mark.parametrize(
+    ("half_width", "gap", "met"), [(0.01, 1e-4, False), (50.0, 2e-7, True), (1.0, -1e-3, True)]
+)
+def test_a_slope_behind_the_ends_of_all_rays_is_left_out_whatever_its_size(
+    half_width: float, gap: float, met: bool
+):
+    """The plane z = y - c is as far behind the lowest middle of a cell, 0.75 m under the axis, as is told."""
+    c = 20.0 + 0.75 + gap * np.sqrt(2.0)
+    slope = [[-half_width, 19.9, 19.9 - c], [half_width, 19.9, 19.9 - c], [0.0, 21.0, 21.0 - c]]
+    found = sight.in_the_way(surface_of(np.array([slope])), north(20.0, 2.0), 4)
+    assert bool(len(found)) is met

@@ -185,3 +185,15 @@ def test_the_sides_of_a_wide_box_bulge_in_degrees_and_all_of_it_has_ground():
     assert np.isfinite(height_at(found.ground, sides)).all()
     assert found.shape[0] < 45
     assert found.shape[1] < 81
+
+
+def test_the_sides_of_a_tall_box_lean_in_degrees_and_all_of_it_has_ground():
+    """19 km east of the origin a meridian is x y tan(60) / R aside: 52 m after 10 km, 5 posts."""
+    origin, box = (60.0, 10.0, 0.0), PlanRectangle((18_500.0, -10_000.0), (19_000.0, 10_000.0))
+    lat, lon = 60.0 + np.linspace(-0.1, 0.1, 41), 10.0 + np.linspace(0.325, 0.345, 101)
+    found = relief_of(level(4326, lon, lat, 100.0), box, origin)
+    assert isinstance(found, Relief)
+    y = np.linspace(box.low[1], box.high[1], 301)
+    sides = np.concatenate([np.column_stack([np.full(301, x), y]) for x in (box.low[0], box.high[0])])
+    assert np.isfinite(height_at(found.ground, sides)).all()
+    assert found.shape[1] < 70

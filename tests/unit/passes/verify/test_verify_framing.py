@@ -135,6 +135,7 @@ def test_a_target_hidden_in_just_most_of_the_frames_is_an_error() -> None:
     assert found == {False: ["V031"], True: ["V050"]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("beside", "found"), [(13.0, ["V031"]), (11.9, [])])
 def test_a_target_that_overlaps_the_filmed_one_does_not_hide_it(beside: float, found: list[str]) -> None:
     (tower,) = MISSION.targets
@@ -163,6 +164,7 @@ def screened(north: float, promise: Promise) -> TrajectoryIR:
     return with_mission(zones=(*MISSION.zones, screen), shots=(shot,))
 
 
+@pytest.mark.slow
 def test_a_promise_of_what_is_visible_holds_for_every_frame_and_is_told_with_who_covers_how_much() -> None:
     ir = screened(-1.0, Promise(visible=0.9))
     found = claim(ir, "tower visible")

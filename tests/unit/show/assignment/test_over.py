@@ -137,6 +137,7 @@ def test_a_zone_in_straight_ways_is_passed_over() -> None:
     assert from_box(flown(ends, move, 0, 4000), (60.0, 0.0, 20.0), (4.0, 2000.0, 40.0)).min() >= 0.3 - 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", [0.0, 60.0, 110.0])
 @pytest.mark.parametrize("height", [60.0, 120.0])
 def test_beside_a_wall_the_fleet_rises_by_hardly_more_than_its_height(at: float, height: float) -> None:
@@ -157,6 +158,7 @@ def test_beside_a_wall_the_fleet_rises_by_hardly_more_than_its_height(at: float,
     assert keeps_limits(ends, move)
 
 
+@pytest.mark.slow
 def test_what_the_obstacles_require_is_looked_up_once_for_all_heights_that_are_tried(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -96,7 +96,7 @@ def formations(seed: int, count: int, roomy: float) -> tuple[Array, Array]:
     return before, after[matched(before * STRETCH, after * STRETCH)]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=examples(12, 300), deadline=None)
 @given(
     seed=st.integers(0, 2**31),

@@ -188,6 +188,7 @@ def behind_a_ridge(height: float) -> tuple[VerifiedIR, Scenery, np.ndarray]:
     )
 
 
+@pytest.mark.slow
 def test_a_hill_hides_the_lights_behind_it() -> None:
     plan, behind, hidden = behind_a_ridge(22.0)
     flight = plan.trajectory.fleets[0]
@@ -202,6 +203,7 @@ def test_a_hill_hides_the_lights_behind_it() -> None:
     assert (night((flight,), 27.5, behind) == night((without,), 27.5, behind)).all()
 
 
+@pytest.mark.slow
 def test_hills_and_houses_stand_in_the_pictures_at_night() -> None:
     _, behind, _ = behind_a_ridge(22.0)
     rows, columns = SIZE[1], SIZE[0]
