@@ -25,7 +25,7 @@ def _lines(done: Rehearsed, paths: Sequence[Path]) -> Iterator[str]:
         yield ""
         yield from (f"  {line}" for line in table(rows))
     yield ""
-    yield from (f"  asked     {line}" for line in described.asked)
+    yield from (f"  asked     {line}" for line in described.requirements)
     yield f"  worst     run {done.worst.number}"
     yield from (f"  note      {line}" for line in described.notes)
     if paths:

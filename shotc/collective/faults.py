@@ -18,7 +18,7 @@ from shotc.rounding import at_least
 class _Broken(NamedTuple):
     """A return, and the first claim that it breaks; None if all hold."""
 
-    found: Return
+    attempt: Return
     claim: Claim | None
 
 

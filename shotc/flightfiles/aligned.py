@@ -36,13 +36,13 @@ STEP_S = 0.1
 class Aligned(NamedTuple):
     """A track, and what its file states.
 
-    told : whether the phases come from the table
+    from_table : whether the phases come from the table
     missing : shots of the drone that are not aligned
     looks, faces : whether the camera's angles and the body's heading are known
     """
 
     track: DroneTrajectory
-    told: bool
+    from_table: bool
     missing: tuple[str, ...]
     looks: bool
     faces: bool

@@ -101,9 +101,9 @@ def _claims(
         flight, endurance, WorstValue(curve.end - lift_off(curve.channels(0, 1, 2)), curve.end, "exact")
     )
     yield from (own for own in space(flight) if own.constraint not in BUILT)
-    if each.told:
+    if each.from_table:
         yield from transits(flight)
-    if each.told and each.faces:
+    if each.from_table and each.faces:
         yield from ahead(flight)
     if each.looks:
         for shot in filmed(flight, ir):

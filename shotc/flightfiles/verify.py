@@ -74,7 +74,7 @@ def verify_flights(
     if lowered.keyframes is None:
         return FlightsReport(False, (), lowered.diagnostics, sources)
     sources |= {each.file: SourceFile(each.file, each.text) for each in reads}
-    faults = [_refused(each.file, each.found) for each in reads if isinstance(each.found, Refused)]
+    faults = [_refused(each.file, each.content) for each in reads if isinstance(each.content, Refused)]
     if drones and len(drones) != len(files):
         text = f"{len(drones)} drones are named for {len(files)} files"
         faults.append(Diagnostic(NOBODY, text, help="give `--drone` once for every file, in their order"))
@@ -85,13 +85,13 @@ def verify_flights(
 
 def _filmed(reads: Sequence[Read]) -> dict[str, str]:
     """Return the drone of every shot that a table names."""
-    tables = [each.found for each in reads if isinstance(each.found, tuple) and not _is_other(each)]
+    tables = [each.content for each in reads if isinstance(each.content, tuple) and not _is_other(each)]
     rows = [one for table in tables for one in table if isinstance(one, DroneRows)]
     return {shot: one.drone for one in rows for shot in one.texts(SHOT) or () if shot}
 
 
 def _is_other(each: Read) -> bool:
-    return isinstance(each.found, Waypoints | Refused)
+    return isinstance(each.content, Waypoints | Refused)
 
 
 def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport:
@@ -100,8 +100,8 @@ def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport
     tables = {
         inside(each.file, rows): rows
         for each in reads
-        if isinstance(each.found, tuple) and not _is_other(each)
-        for rows in each.found
+        if isinstance(each.content, tuple) and not _is_other(each)
+        for rows in each.content
         if isinstance(rows, DroneRows) and rows.member
     }
     more = {file: SourceFile(file, tables[file].text) for file in labelled.intersection(tables)}
@@ -113,7 +113,7 @@ def _owned(
 ) -> FlightsReport:
     """Return the report after assigning flights to drones."""
     mission = keyframes.mission
-    plain = [i for i, each in enumerate(reads) if isinstance(each.found, Waypoints)]
+    plain = [i for i, each in enumerate(reads) if isinstance(each.content, Waypoints)]
     names = [reads[i].file.removesuffix(f"/{WAYLINES}") for i in plain]
     owned, faults = owners(mission, names, [drones[i] for i in plain] if drones else ())
     faults = (*faults, *(_nowhere(mission) if plain else ()))
@@ -142,24 +142,24 @@ def _clocked(mission: MissionIR, each: Read, chosen: str) -> list[ClockedFlight]
 
     chosen : name of its drone by the user's options, or ""
     """
-    if isinstance(each.found, SkycShow):
-        return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
-    if not isinstance(each.found, tuple) or isinstance(each.found, Waypoints | Refused):
+    if isinstance(each.content, SkycShow):
+        return [of_show(flight, each.content, each.file, mission.origin) for flight in each.content.flights]
+    if not isinstance(each.content, tuple) or isinstance(each.content, Waypoints | Refused):
         return []
-    if len(each.found) == 1 and (chosen or not each.found[0].drone):
+    if len(each.content) == 1 and (chosen or not each.content[0].drone):
         owned, faults = owners(mission, [each.file], [chosen] if chosen else ())
         if faults:
             return faults[0]
         names = [owned[0].drone.name]
     else:
-        names = [rows.drone for rows in each.found]
+        names = [rows.drone for rows in each.content]
     limits = {f"{name}": fleet.limits for fleet in mission.fleets for name in drone_names(fleet)}
     limits |= {drone.name: drone.limits for drone in mission.drones}
     usual = next(iter(limits.values()))
     try:
         return [
             of_rows(rows, name, each.file, limits.get(name, usual))
-            for rows, name in zip(each.found, names, strict=True)
+            for rows, name in zip(each.content, names, strict=True)
         ]
     except Unread as stopped:
         return _refused(each.file, stopped.refused)
@@ -232,7 +232,7 @@ def _between(
 
 def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> UntimedFlight | Diagnostic:
     """Return the flight of a drone from all its files, joined in order."""
-    plans = [each.found for each in reads if isinstance(each.found, Waypoints)]
+    plans = [each.content for each in reads if isinstance(each.content, Waypoints)]
     of_file = [each.file for each, plan in zip(reads, plans, strict=True) for _ in plan.points]
     plan = plans[-1]._replace(points=tuple(p for each in plans for p in each.points), climb=plans[0].climb)
     if any(each.family != plan.family for each in plans):

@@ -79,7 +79,7 @@ class PreviousView(NamedTuple):
 
     eye: Vec3
     kept: Vec3
-    way: float
+    largest_step: float
 
 
 class SubjectAppearance(NamedTuple):
@@ -281,7 +281,7 @@ def _residuals(
     residuals += _off_pose(pose, bounds.drawn, subjects)
     if previous is not None:
         residuals += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, previous.kept, strict=True)]
-        residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.way))
+        residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.largest_step))
     return residuals
 
 

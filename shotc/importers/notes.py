@@ -33,7 +33,7 @@ class Notes:
         self._found: dict[tuple[int, str], Note] = {}
 
     @property
-    def found(self) -> tuple[Note, ...]:
+    def assumptions(self) -> tuple[Note, ...]:
         """All assumptions so far."""
         return tuple(self._found.values())
 
@@ -45,7 +45,7 @@ class Notes:
     def below(self, node: Node) -> list[str]:
         """Return the comments about an element and its descendants."""
         inside = {id(n) for n in node.everything()}
-        return [note.comment for note in self.found if id(note.node) in inside]
+        return [note.comment for note in self.assumptions if id(note.node) in inside]
 
 
 def plain(text: str, most: int | None = None) -> str:
@@ -64,5 +64,5 @@ def assumption_diagnostics(file: str, notes: Notes, *, strict: bool) -> tuple[Di
     code = "I005" if strict else "I004"
     return tuple(
         Diagnostic(code, note.message, (label(file, note.node),), (), f"taken: {note.taken}")
-        for note in notes.found
+        for note in notes.assumptions
     )

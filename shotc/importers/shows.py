@@ -79,7 +79,7 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
     """
     result = read(data, name) if suffix_of(name) in (SHOW, TABLES) else Read(name, FOREIGN, "")
     sources = {result.file: SourceFile(result.file, result.text)}
-    show = _show_of(result.found)
+    show = _show_of(result.content)
     if not isinstance(show, _Show):
         text = f"`{name}` cannot be imported: {show.message}"
         failed = Diagnostic(show.code, text, (label(result.file, show.node),), (), show.help)
@@ -161,7 +161,7 @@ def _written(
     lines = [
         "# A recorded show, by `shotc import show`. `shotc plan` brings it within the limits of its drones",
         "# and proves it; where it is too fast, all drones take more time, and that is told.",
-        *(f"# {note.comment}" for note in notes.found),
+        *(f"# {note.comment}" for note in notes.assumptions),
         "shotc: 1",
         f"mission: {stem}",
     ]

@@ -133,7 +133,7 @@ class Drone(NamedTuple):
         return self.zooms and self.autopilot in ZOOM_COMMANDS
 
     @property
-    def lasts(self) -> str:
+    def endurance_text(self) -> str:
         """Its endurance in words, with the energy and the power that it follows from."""
         if self.power is None:
             return f"{self.endurance:.1f} s"

@@ -207,7 +207,7 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
     the drone's.
     """
     subjects = scene.shot.subjects
-    required, bounds = scene.wanted(subjects, scene.start), scene.room_at(scene.start)
+    required, bounds = scene.required_views(subjects, scene.start), scene.room_at(scene.start)
     come = scene.comes_from(middle_of(required))
     turns = [
         WIDE_BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1)
@@ -223,7 +223,7 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
         pose, cost = viewpoint(required, scene.lens, bounds, guess)
         settled = _assigned(subjects, required, pose, scene.lens)
         if settled != subjects:
-            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, bounds, pose)
+            pose, cost = viewpoint(scene.required_views(settled, scene.start), scene.lens, bounds, pose)
         openings.append((cost, pose, settled))
     least = min(cost for cost, _, _ in openings)
     good = [f for f in openings if f[0] <= least + NEARLY_AS_GOOD_COST]
@@ -252,7 +252,7 @@ def _polished(
 ) -> tuple[Pose, tuple[Subject, ...]]:
     """Return an opening, solved again from its result until the cost hardly falls."""
     cost, pose, subjects = opening
-    required = scene.wanted(subjects, scene.start)
+    required = scene.required_views(subjects, scene.start)
     for _ in range(MOST_RESTARTS):
         pose, later = viewpoint(required, scene.lens, scene.room_at(scene.start), pose)
         if later > (1 - NEARLY_AS_GOOD_COST) * cost:
@@ -269,9 +269,9 @@ def _follow(
     The initial guess of each is the one before, moved along with the subjects.
     """
     poses = [first]
-    middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]
+    middle, before = middle_of(scene.required_views(subjects, times[0])), times[0]
     for t in times[1:]:
-        required, bounds = scene.wanted(subjects, t), scene.room_at(t)
+        required, bounds = scene.required_views(subjects, t), scene.room_at(t)
         later, last = middle_of(required), poses[-1]
         eye, along = (last[0], last[1], last[2]), minus(later, middle)
         largest_step = max(BRISK_SHARE * scene.drone.limits.speed * (t - before), hypot(*along))

@@ -83,7 +83,7 @@ class FramedScene:
         """Return the offset at a mission time, interpolated in the offsets over the shot."""
         return offset_at(points, (t - self.start) / max(self.times[-1] - self.start, 1e-9))
 
-    def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[RequiredView, ...]:
+    def required_views(self, subjects: Sequence[Subject], t: float) -> tuple[RequiredView, ...]:
         """Return all subjects with their required appearance at a mission time."""
         return tuple(required_view_at(self.mission, s, self.start, t) for s in subjects)
 

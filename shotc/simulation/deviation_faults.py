@@ -144,7 +144,7 @@ def _unplanned(done: Rehearsed) -> Iterator[Diagnostic]:
         yield Diagnostic(
             "W010",
             f"the replanner `{name}` gives {first.drone} no plan in {sum(c.failed for c, _ in failed)} of "
-            f"{sum(c.asked for c, _ in every)} replans",
+            f"{sum(c.requested for c, _ in every)} replans",
             (done.mission.origins.value(done.mission.drone(first.drone).path),),
             (
                 f"in {len(failed)} of {len(done.runs)} runs, the first of them run {failed[0][1].number}",

@@ -22,12 +22,12 @@ LEAD_S = 1.5
 class FramedTarget:
     """A target that a drone frames.
 
-    wanted : reference on screen at each step, (N, 2); NaN where it is not framed
+    reference : reference on screen at each step, (N, 2); NaN where it is not framed
     share : how far the camera follows it, 0 to 1, shape (N,); it rises before a shot and falls after it
     """
 
     target: str
-    wanted: Array
+    reference: Array
     share: Array
 
 

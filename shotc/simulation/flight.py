@@ -182,7 +182,10 @@ def _demanded(
     angles = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
     framed = () if world.conditions.loop == "replay" else film.framed
     aims = [
-        (each.share[k], _aim(film, k, each.wanted, drone, _known(world, each.target, targets, film.times[k])))
+        (
+            each.share[k],
+            _aim(film, k, each.reference, drone, _known(world, each.target, targets, film.times[k])),
+        )
         for each in framed
         if each.share[k] > 0.0
     ]

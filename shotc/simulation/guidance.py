@@ -74,7 +74,7 @@ class Replans:
     blind: str = ""
 
     @property
-    def asked(self) -> int:
+    def requested(self) -> int:
         """The number of replans that the replanner was asked for, or would have been."""
         return self.planned + self.stalled + self.opened + self.failed
 
@@ -311,7 +311,10 @@ class Guidance:
         """
         assert self._course is not None
         if isinstance(shot, Chased) and shot.turns:
-            track, velocity = self.world.mission.target(shot.target).track, known[shot.target].now.way
+            track, velocity = (
+                self.world.mission.target(shot.target).track,
+                known[shot.target].now.course_velocity,
+            )
             assert track is not None
             moves = np.hypot(velocity[:, 0], velocity[:, 1]) > STILL_M_S
             course = np.arctan2(velocity[:, 1], velocity[:, 0])

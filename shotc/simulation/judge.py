@@ -202,13 +202,13 @@ class _Filmed(NamedTuple):
     """A target of a shot at the frames in which it is framed.
 
     times : (M,), seconds
-    wanted : reference on screen, (M, 2); NaN where there is none
+    reference : reference on screen, (M, 2); NaN where there is none
     """
 
     shot: str
     target: str
     times: Array
-    wanted: Array
+    reference: Array
 
 
 def _filmed(mission: MissionIR, track: DroneTrajectory) -> Iterator[_Filmed]:

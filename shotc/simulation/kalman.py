@@ -78,7 +78,7 @@ class Estimate:
         return self.mean[:, 3:6]
 
     @property
-    def way(self) -> Array:
+    def course_velocity(self) -> Array:
         """Velocity of the course, (R, 3), m/s."""
         return self.mean[:, WAY]
 
@@ -194,7 +194,7 @@ def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
 def ahead(estimate: Estimate, seconds: Array, model: MotionModel) -> Array:
     """Return predicted position and velocity after times (M,), seconds, shape (M, R, 6), metres and m/s."""
     span, left = model.span(seconds)[:, None, None], np.asarray(seconds)[:, None, None]
-    course, beside = estimate.way, estimate.velocity - estimate.way
+    course, beside = estimate.course_velocity, estimate.velocity - estimate.course_velocity
     kept = 1.0 - span / model.memory
     place = estimate.position + left * course + span * beside
     return np.concatenate([place, course + kept * beside], axis=2)

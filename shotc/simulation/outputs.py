@@ -29,7 +29,9 @@ def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]
     described = summary(done)
     made = [
         Artifact("simulate.json", json_text(done).encode("ascii")),
-        report(plan, Simulated(described.flown, described.tables, (*described.asked, *described.notes))),
+        report(
+            plan, Simulated(described.flown, described.tables, (*described.requirements, *described.notes))
+        ),
     ]
     if not done.ir.drones:
         return Emission((*made, Artifact("simulate.png", draw(done))))

@@ -76,7 +76,7 @@ class TrackedTarget:
         really, believed = eyes
         half = np.broadcast_to(film.half[k], (len(really), 2))
         uv, _ = projection(self.places[k] - really, attitude.axes, half)
-        detected, used = detector.found(uv, self.chances)
+        detected, used = detector.detections(uv, self.chances)
         time = float(film.times[k])
         fix = PictureFix(time, detected, believed, attitude.axes, half, detector.noise, used)
         heappush(self.waiting, (time + detector.delay, next(self.numbers), fix))

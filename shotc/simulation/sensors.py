@@ -128,7 +128,7 @@ class Detector:
     delay: float = 0.1
     misses: float = 0.05
 
-    def found(self, uv: Array, chances: Sequence[np.random.Generator]) -> tuple[Array, Mask]:
+    def detections(self, uv: Array, chances: Sequence[np.random.Generator]) -> tuple[Array, Mask]:
         """Return detections of targets at (R, 2), half frames (NaN behind the camera), and their existence
         (R,).
         """

@@ -27,13 +27,13 @@ BRAKES_M_S2 = 0.6
 class Fading:
     """The return of drones in R runs to their plan: an offset that is quintic in time and ends at rest.
 
-    start, lasts : (R,), seconds
+    start, durations : (R,), seconds
     off, rate : offset at the start, (R, 3), metres, m/s
     """
 
     film: PlanSamples
     start: Array
-    lasts: Array
+    durations: Array
     off: Array
     rate: Array
 
@@ -47,14 +47,16 @@ class Fading:
 
         off : position and velocity, (3,) each
         """
-        start, seconds, place, rate = (part.copy() for part in (self.start, self.lasts, self.off, self.rate))
+        start, seconds, place, rate = (
+            part.copy() for part in (self.start, self.durations, self.off, self.rate)
+        )
         start[run], seconds[run], place[run], rate[run] = time, duration, *off
         return Fading(self.film, start, seconds, place, rate)
 
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint plus the remaining offset."""
         plan = self.film.setpoint(self.film.step(time))
-        if (time >= self.start + self.lasts).all():
+        if (time >= self.start + self.durations).all():
             return plan
         moved = [self.beside(time, order) for order in range(3)]
         return VehicleSetpoint(
@@ -64,7 +66,7 @@ class Fading:
     def places(self, run: int, times: Array) -> Array:
         """Return the positions of a run at times (M,), shape (M, 3), metres."""
         elapsed, slows = times - self.start[run], self._slows[run]
-        x, y = (np.clip(elapsed / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts[run], slows))
+        x, y = (np.clip(elapsed / seconds, 0.0, 1.0)[:, None] for seconds in (self.durations[run], slows))
         beside = PLACE(x) * self.off[run] + RATE(y) * slows * self.rate[run]
         return np.asarray(self.film.places(times) + beside)
 
@@ -72,13 +74,15 @@ class Fading:
     def _slows(self) -> Array:
         """Return the times in which the rates fade, (R,), s: who is far off does not fly on for long."""
         speed = np.linalg.norm(self.rate, axis=1)
-        return np.asarray(np.minimum(self.lasts, np.maximum(SLOWS_S, speed / BRAKES_M_S2)))
+        return np.asarray(np.minimum(self.durations, np.maximum(SLOWS_S, speed / BRAKES_M_S2)))
 
     def beside(self, time: float, order: int) -> Array:
         """Return the offset or its derivative, (R, 3)."""
         slows = self._slows
-        x, y = (np.clip((time - self.start) / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts, slows))
-        place = PLACE.deriv(order)(x) * self.off / self.lasts[:, None] ** order
+        x, y = (
+            np.clip((time - self.start) / seconds, 0.0, 1.0)[:, None] for seconds in (self.durations, slows)
+        )
+        place = PLACE.deriv(order)(x) * self.off / self.durations[:, None] ** order
         rate = RATE.deriv(order)(y) * self.rate * slows[:, None] ** (1 - order)
         return np.asarray(place + rate)
 

@@ -54,14 +54,14 @@ class FleetPair:
     one : a fleet
     other : a fleet, or the drone of a camera
     near : its rows refer to ``one`` and to ``other``
-    asked : separation without margins, metres
+    required : separation without margins, metres
     radii : sum of the radii of a body of each, metres
     """
 
     one: str
     other: str
     near: ClosestPair
-    asked: float
+    required: float
     radii: float
 
     @property
@@ -87,11 +87,11 @@ class _Meeting(NamedTuple):
     other: int
     search: Across
     names: tuple[str, str]
-    asked: float
+    required: float
     radii: float
 
-    def found(self) -> FleetPair:
-        return FleetPair(*self.names, self.search.found(), self.asked, self.radii)
+    def pair(self) -> FleetPair:
+        return FleetPair(*self.names, self.search.nearest(), self.required, self.radii)
 
 
 def fly_fleets(
@@ -136,10 +136,10 @@ def _flown(
         for meeting in meetings:
             meeting.search.add(time, places[meeting.one], places[meeting.other])
     courses = (
-        FleetCourse(fleet.name, watch.found(), fleet.radius)
+        FleetCourse(fleet.name, watch.result(), fleet.radius)
         for fleet, watch in zip(fleets, watches, strict=True)
     )
-    return FleetRun(tuple(courses), tuple(meeting.found() for meeting in meetings))
+    return FleetRun(tuple(courses), tuple(meeting.pair() for meeting in meetings))
 
 
 def _meetings(

@@ -154,7 +154,7 @@ class ComposedShot:
     ) -> FramingSituation:
         """Return the input of a replan in one run; arguments as in ``Chased``."""
         filmed = {each.target: self._appearances(each, stages) for each in self.subjects}
-        references = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
+        references = {each.target: each.reference[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
         return FramingSituation(
             time=float(stages[0]),

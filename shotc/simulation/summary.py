@@ -52,13 +52,13 @@ class Summary(NamedTuple):
 
     flown : number of runs, and the conditions
     tables : of framing, cameras and fleets, without empty ones; the first row of each is its head
-    asked : the mission's requirements, with the number of runs that keep them
+    requirements : the mission's requirements, with the number of runs that keep them
     notes : further remarks
     """
 
     flown: str
     tables: tuple[Rows, ...]
-    asked: tuple[str, ...]
+    requirements: tuple[str, ...]
     notes: tuple[str, ...]
 
 
@@ -234,7 +234,7 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
         if not counts:
             continue
         yield (
-            f"{first.drone}: planned anew {sum(c.asked for c in counts)} times, "
+            f"{first.drone}: planned anew {sum(c.requested for c in counts)} times, "
             f"{sum(c.failed for c in counts)} in vain, "
             f"{sum(c.opened for c in counts)} from beyond its limits, "
             f"{sum(c.stalled for c in counts)} no better than before"
@@ -270,7 +270,7 @@ def _met(done: Rehearsed, every: list[FleetPair]) -> str:
     one, other = names[worst.one][near.first], names.get(worst.other, (worst.other,))[near.second]
     text = f"{worst.one} and {worst.other}: {one} and {other} come nearest"
     how = f"{at_most(near.distance)} m at {as_minutes(near.time)}"
-    return f"{text}, {how}" + (f", nearer than the {worst.asked:g} m asked" if near.below else "")
+    return f"{text}, {how}" + (f", nearer than the {worst.required:g} m asked" if near.below else "")
 
 
 def _beside_pads(fleet: Fleet, every: list[ClosestPair]) -> Iterator[str]:

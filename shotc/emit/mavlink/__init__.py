@@ -91,12 +91,12 @@ class MavlinkEmitter:
 class _Flight:
     """A flight list, and whether the tolerances were loosened to make it fit.
 
-    asked : steps with the intended holds
+    intended : steps with the intended holds
     steps : steps with the holds that the autopilot can carry
     """
 
     items: list[MissionItem]
-    asked: list[WaypointStep]
+    intended: list[WaypointStep]
     steps: list[WaypointStep]
     coarser: bool
 
@@ -160,7 +160,7 @@ class _Job:
         diagnostics = [left_out(self.mission, self.drone, left) for left in fence.left_out]
         diagnostics += [*self._warnings(flight, flown, error), *not_carried]
         notes += [
-            *sidenotes(self.drone, flight.asked, flight.steps),
+            *sidenotes(self.drone, flight.intended, flight.steps),
             *link_notes(self.drone, 0.0, written=False),
         ]
         return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes)), flown.position

@@ -34,12 +34,12 @@ class Simulated(NamedTuple):
 
     flown : number and kind of the runs
     tables : each with its head as the first row
-    told : sentences
+    sentences : sentences
     """
 
     flown: str
     tables: Sequence[Sequence[Row]]
-    told: Sequence[str]
+    sentences: Sequence[str]
 
 
 def page(plan: VerifiedIR, simulated: Simulated | None = None) -> str:
@@ -295,7 +295,7 @@ def _flown(simulated: Simulated | None) -> str:
         "drones are from their plan under these assumptions.</p>"
     )
     tables = [_table(rows[1:], rows[0]) for rows in simulated.tables]
-    return "\n".join(["", about, *tables, _list(simulated.told)])
+    return "\n".join(["", about, *tables, _list(simulated.sentences)])
 
 
 def _open(mission: MissionIR, site: Volumes) -> Iterator[str]:

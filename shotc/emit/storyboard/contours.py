@@ -60,7 +60,7 @@ class PlanRelief:
         return np.arange(first, last + 1) * self.step + 0.0
 
     @property
-    def told(self) -> Array:
+    def labelled(self) -> Array:
         """Heights of the bold, labelled contours, shape (n,)."""
         for every in (LABELLED_EVERY, 2):
             number = np.round(self.levels / self.step) if self.step else self.levels
@@ -96,7 +96,7 @@ def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
 def draw_relief(canvas: Canvas, sheet: Sheet, relief: PlanRelief) -> None:
     """Draw hillshade and contours; the sheet is unchanged where there is no ground."""
     canvas.image(_pixels(relief), sheet.box)
-    triangles, bold_levels = relief.triangles, relief.told
+    triangles, bold_levels = relief.triangles, relief.labelled
     for level in relief.levels:
         bold = level in bold_levels
         ends = contour(triangles, float(level))
@@ -137,7 +137,7 @@ def contour_heights(
     box, triangles = sheet.box, relief.triangles
     inner = PageRectangle(box.x + 0.05, box.y + 0.05, box.width - 0.1, box.height - 0.1)
     middle = np.array([box.x + box.width / 2, box.y + box.height / 2])
-    levels = relief.told
+    levels = relief.labelled
     for level in levels[:: max(1, -(-len(levels) // MOST_LABELS))]:
         text = f"{level:g} m".replace("-", "−")
         width, height = canvas.extent(text, style)

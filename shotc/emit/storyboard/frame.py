@@ -103,9 +103,9 @@ def _marks(
     """
     taken: list[PageRectangle] = []
     if subject.reference is not None:
-        if subject.asked is not None and subject.is_moved:
-            _requested(canvas, shown, subject.asked, subject.reference)
-            x, y = (float(c) for c in shown.place(np.array(subject.asked)))
+        if subject.requested is not None and subject.is_moved:
+            _requested(canvas, shown, subject.requested, subject.reference)
+            x, y = (float(c) for c in shown.place(np.array(subject.requested)))
             taken.append(PageRectangle(x - 0.07, y - 0.07, 0.14, 0.14))
         x, y = _cross(canvas, shown, subject.reference)
         taken.append(PageRectangle(x - 0.13, y - 0.13, 0.26, 0.26))

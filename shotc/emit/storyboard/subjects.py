@@ -29,22 +29,22 @@ class FramedSubject:
     """One subject at one moment.
 
     reference : (u, v) of its reference, or None
-    asked : (u, v) that the user's own heading and pitch give, or None
+    requested : (u, v) that the user's own heading and pitch give, or None
     fault : "cropped", "hidden", or its covered share in words; "" without a fault
     """
 
     target: str
     reference: Vec2 | None
-    asked: Vec2 | None
+    requested: Vec2 | None
     composition: Composition
     fault: str
 
     @property
     def is_moved(self) -> bool:
         """Whether composition moved the subject visibly away from the user's own framing."""
-        if self.asked is None or self.reference is None:
+        if self.requested is None or self.reference is None:
             return False
-        return bool(np.hypot(*np.subtract(self.asked, self.reference)) > MOVED_HALF_FRAMES)
+        return bool(np.hypot(*np.subtract(self.requested, self.reference)) > MOVED_HALF_FRAMES)
 
 
 def at_keyframe(
@@ -60,7 +60,7 @@ def at_keyframe(
         FramedSubject(
             target=keyframe.target,
             reference=keyframe.reference,
-            asked=keyframe.asked if own_angles else None,
+            requested=keyframe.asked if own_angles else None,
             composition=written.composition,
             fault=_fault(plan, flight, keyframe.target, at.time),
         ),
@@ -82,7 +82,7 @@ def at_time(
             FramedSubject(
                 target=target,
                 reference=None if np.isnan(u) else (u, v),
-                asked=None,
+                requested=None,
                 composition=_composition(shot, target, passed[-1] if passed else 0),
                 fault=_fault(plan, flight, target, time),
             )

@@ -62,7 +62,7 @@ MOST_ROUNDS = 400
 class Chooser:
     """Chooses the points of one drone's route.
 
-    way : (n,), metres flown before each sample; stays count with STAY_PACE_M_S
+    distances : (n,), metres flown before each sample; stays count with STAY_PACE_M_S
     planned : missing clearance at each sample, one array (n,) for each obstacle, metres
     halts : whether the machine stands still at every point with an action
     lens : the lens whose zoom the file commands; None if it commands none
@@ -73,7 +73,7 @@ class Chooser:
     drone: Drone
     obstacles: tuple[Obstacle, ...]
     shapes: tuple[CurveModel, ...]
-    way: Array
+    distances: Array
     planned: tuple[Array, ...]
     halts: bool
     lens: LensRange | None = None
@@ -82,7 +82,7 @@ class Chooser:
     def stations(self) -> list[Station]:
         """Return the stations of the route."""
         stay = None if self.lens is None else self._stay
-        needed, gaps = stations_of(self.track, self.way, stay, self.photos)
+        needed, gaps = stations_of(self.track, self.distances, stay, self.photos)
         parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
         for _ in range(MOST_ROUNDS):
             stations, owners = _joined(needed, parts)
@@ -100,7 +100,7 @@ class Chooser:
         poses, time = self.track.poses, self.track.time
         position = poses.position[[s.first for s in stations]]
         legs = [(a.last, b.first) for a, b in pairwise(stations)]
-        speed = [(self.way[b] - self.way[a]) / (time[b] - time[a]) for a, b in legs]
+        speed = [(self.distances[b] - self.distances[a]) / (time[b] - time[a]) for a, b in legs]
         length = np.linalg.norm(np.diff(position, axis=0), axis=1)
         shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
         return Route(
@@ -161,14 +161,14 @@ class Chooser:
         position = self.track.poses.position
         if np.linalg.norm(position[gap.last] - position[gap.first]) >= SHORTEST_LEG_M:
             return []
-        thirds = [self._at(self.way[gap.first] + s * self._length(gap) / 3) for s in (1, 2)]
+        thirds = [self._at(self.distances[gap.first] + s * self._length(gap) / 3) for s in (1, 2)]
         return [i for i in thirds if gap.first < i < gap.last]
 
     def _length(self, gap: StationInterval) -> float:
-        return float(self.way[gap.last] - self.way[gap.first])
+        return float(self.distances[gap.last] - self.distances[gap.first])
 
     def _at(self, metres: float) -> int:
-        return int(np.searchsorted(self.way, metres))
+        return int(np.searchsorted(self.distances, metres))
 
     def _cuts(self, stations: list[Station], owners: Index, scores: list[Array]) -> dict[int, int]:
         """Return the samples for new points, by leg: one for each part that is beyond its bounds.
@@ -176,7 +176,7 @@ class Chooser:
         A leg much shorter than its neighbour bends most curves most; the neighbour is divided instead.
         """
         ends = [(a.last, b.first) for a, b in pairwise(stations)]
-        length = [self.way[b] - self.way[a] for a, b in ends]
+        length = [self.distances[b] - self.distances[a] for a, b in ends]
         cuts: dict[int, int] = {}
         for k, score in enumerate(scores):
             if score.max() <= 1:
@@ -194,7 +194,7 @@ class Chooser:
 
     def _middle(self, a: int, b: int) -> int | None:
         """Return the sample in the middle of a leg, or None if its halves would be too short."""
-        middle = self._at((self.way[a] + self.way[b]) / 2)
+        middle = self._at((self.distances[a] + self.distances[b]) / 2)
         return middle if a < middle < b and self._far(a, middle) and self._far(middle, b) else None
 
     def _far(self, a: int, b: int) -> bool:
@@ -248,11 +248,13 @@ class Chooser:
         """
         first = np.searchsorted(leg, leg)
         last = np.searchsorted(leg, leg, side="right") - 1
-        metres = self.way[samples]
+        metres = self.distances[samples]
         share = (metres - metres[first]) / np.maximum(metres[last] - metres[first], 1e-9)
-        ruler = (flown.share + np.arange(len(flown.way))[:, None]).ravel()
+        ruler = (flown.share + np.arange(len(flown.distances))[:, None]).ravel()
         at = np.interp(share + leg, ruler, np.arange(len(ruler)))
-        low = np.clip(np.floor(at).astype(int), leg * flown.way.shape[1], (leg + 1) * flown.way.shape[1] - 2)
+        low = np.clip(
+            np.floor(at).astype(int), leg * flown.distances.shape[1], (leg + 1) * flown.distances.shape[1] - 2
+        )
         rest = at - low
 
         def mix(values: Array) -> Array:
@@ -274,7 +276,7 @@ class Chooser:
 
     def _nearer(self, flown: Legs, samples: Index, leg: Index, off: Array) -> Array:
         """Return how much deeper each leg violates a clearance than the plan does there, metres."""
-        count = len(flown.way)
+        count = len(flown.distances)
         reach = _most(off, leg, count) + CLEARANCE_CUT_M
         nearer = np.zeros(count)
         for obstacle, planned in zip(self.obstacles, self.planned, strict=True):

@@ -89,16 +89,16 @@ class Legs:
     """Samples of all legs of a route.
 
     position : (m - 1, k + 1, 3), metres
-    way : (m - 1, k + 1), metres from the leg's beginning
+    distances : (m - 1, k + 1), metres from the leg's beginning
     """
 
     position: Array
-    way: Array
+    distances: Array
 
     @property
     def share(self) -> Array:
         """Progress on each leg, 0 to 1, (m - 1, k + 1)."""
-        return self.way / np.maximum(self.way[:, -1:], paths.SHORTEST_M)
+        return self.distances / np.maximum(self.distances[:, -1:], paths.SHORTEST_M)
 
 
 def legs_of(route: Route, shape: CurveModel, count: int = LEG_SAMPLES) -> Legs:
@@ -113,7 +113,7 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
 
     A machine brakes before it stops, and changes from one speed to the next after the point.
     """
-    length = legs.way[:, -1]
+    length = legs.distances[:, -1]
     goal = np.maximum(route.speed[:-1], SLOWEST_M_S)
     entry = np.zeros(len(length))
     for i in range(1, len(length)):
@@ -123,13 +123,13 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
             near = min(last + change, goal[i - 1] ** 2) if last < goal[i - 1] ** 2 else last - change
             entry[i] = np.sqrt(max(near, min(last, goal[i - 1] ** 2)))
     square = entry[:, None] ** 2
-    rising = np.minimum(square + 2 * ramp * legs.way, goal[:, None] ** 2)
-    falling = np.maximum(square - 2 * ramp * legs.way, goal[:, None] ** 2)
+    rising = np.minimum(square + 2 * ramp * legs.distances, goal[:, None] ** 2)
+    falling = np.maximum(square - 2 * ramp * legs.distances, goal[:, None] ** 2)
     square = np.where(square < goal[:, None] ** 2, rising, falling)
-    braking = np.where(route.stops[1:, None], 2 * ramp * (length[:, None] - legs.way), np.inf)
+    braking = np.where(route.stops[1:, None], 2 * ramp * (length[:, None] - legs.distances), np.inf)
     speed = np.sqrt(np.maximum(np.minimum(square, braking), 0.0))
     mean = np.maximum((speed[:, 1:] + speed[:, :-1]) / 2, SLOWEST_M_S / 2)
-    steps = np.diff(legs.way, axis=1) / mean
+    steps = np.diff(legs.distances, axis=1) / mean
     return np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
 
 
@@ -160,12 +160,12 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
                 hfov = hfov if lens is None else shown_by(lens, action)
             else:
                 part += 1
-        if i < len(legs.way):
+        if i < len(legs.distances):
             yaw = route.yaw[i] + share[i] * (route.yaw[i + 1] - route.yaw[i])
             pitch = route.pitch[i] + share[i] * (route.pitch[i + 1] - route.pitch[i])
-            leg = np.column_stack([legs.position[i], yaw, pitch, legs.way[i], times[i]])
+            leg = np.column_stack([legs.position[i], yaw, pitch, legs.distances[i], times[i]])
             rows.append(_stamped(leg, part, metres, now, hfov))
-            metres, now = metres + float(legs.way[i, -1]), now + float(times[i, -1])
+            metres, now = metres + float(legs.distances[i, -1]), now + float(times[i, -1])
     table = np.concatenate(rows)
     yaw, pitch, progress, elapsed, film, shown = table[:, 3:].T
     return ReflownSamples(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)

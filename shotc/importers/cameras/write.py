@@ -66,7 +66,7 @@ def written(
             f"# {kept_of}: between them the picture is within {PICTURE_ERROR_HALF_FRAMES:g} half frames "
             "of the file's."
         )
-    said = {f"# {note.comment}": None for note in notes.found}
+    said = {f"# {note.comment}": None for note in notes.assumptions}
     body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
     return Written("\n".join([*head, *said, *body, ""]), len(kept), counts[1], counts[0])
 

@@ -51,7 +51,7 @@ def _point(row: TableRow, index: int, units: dict[str, str]) -> FlightPoint:
     pitch = row.number("gimbalpitchangle", notes) if row.number("gimbalmode", notes) else None
     level: Level = "ground" if row.number("altitudemode", notes) == 1 else "home"
     actions = list(actions_of(row, notes))
-    wrong: Note | None = next(iter(notes.found), None)
+    wrong: Note | None = next(iter(notes.assumptions), None)
     if wrong is not None:
         refuse(BROKEN, f"{wrong.message} of {name}", wrong.node)
     return FlightPoint(

@@ -18,7 +18,7 @@ class Read(NamedTuple):
     """A file that was read: its content or why it is refused, and the text for line numbers in messages."""
 
     file: str
-    found: Found | Refused
+    content: Found | Refused
     text: str
 
 

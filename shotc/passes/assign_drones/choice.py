@@ -51,7 +51,7 @@ def _can(task: ShotTask, drone: str) -> bool:
     """Return whether a drone can film a shot at all: by assignment, in time, and within its endurance."""
     if task.flown_by is not None:
         return task.flown_by == drone
-    away = task.way(drone)
+    away = task.travel_time(drone)
     if task.start is not None and away > task.start + COST_SLACK:
         return False
     return away + task.duration + task.back(drone) <= task.drones[drone].endurance
@@ -63,7 +63,8 @@ def _work(
     """Yield the constraints that no drone works more than the busiest one, whose work is the last unknown."""
     for d in drones:
         work = {
-            column[i, d]: task.duration + 0.5 * (task.way(d) + task.back(d)) for i, task in enumerate(tasks)
+            column[i, d]: task.duration + 0.5 * (task.travel_time(d) + task.back(d))
+            for i, task in enumerate(tasks)
         }
         yield {**work, busiest: -1.0}, 0.0
 

@@ -41,7 +41,7 @@ class ShotTask(NamedTuple):
     flown_by: str | None
     drones: Mapping[str, Drone]
 
-    def way(self, drone: str) -> float:
+    def travel_time(self, drone: str) -> float:
         """Return the least time from a drone's home to the shot, seconds."""
         return least_travel([self.drones[drone].home, self.first], self.drones[drone].limits)
 

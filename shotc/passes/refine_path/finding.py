@@ -30,7 +30,7 @@ class RefinerFault(NamedTuple):
     """An error and the shot that it is about; None where it is about all of them."""
 
     shot: str | None
-    told: Diagnostic
+    diagnostic: Diagnostic
 
 
 def tell(mission: MissionIR, seat: Seat, finding: RefinerFinding) -> RefinerFault:

@@ -49,8 +49,8 @@ def settle(before: PathIR, seat: Seat, answer: RefinerAnswer) -> Outcome[PathIR]
     if concerned <= optional:
         told_of = (kept(before, seat, name, faults) for name in sorted(concerned))
         return Outcome(path, (*answer.warnings, *told_of))
-    errors = dict.fromkeys(fault.told for fault in faults if fault.shot not in optional)
-    return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.told for fault in faults))))
+    errors = dict.fromkeys(fault.diagnostic for fault in faults if fault.shot not in optional)
+    return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.diagnostic for fault in faults))))
 
 
 def _mended(before: PathIR, seat: Seat, answer: RefinerAnswer) -> tuple[PathIR | None, list[RefinerFault]]:
@@ -147,8 +147,8 @@ def kept(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault]) -> D
     """Return the warning of a shot that keeps its convex path, with the faults of the refined one."""
     mission = before.keyframes.mission
     path = mission.shot(shot).path
-    about = [fault.told for fault in faults if fault.shot in (shot, None)]
-    notes = [note for d in about or [f.told for f in faults] for note in (d.message, *d.notes)]
+    about = [fault.diagnostic for fault in faults if fault.shot in (shot, None)]
+    notes = [note for d in about or [f.diagnostic for f in faults] for note in (d.message, *d.notes)]
     return Diagnostic(
         "R003",
         f"shot `{shot}` flies its convex path, since {seat.named} gave none that can be flown",

@@ -32,7 +32,7 @@ class ClosestPass(NamedTuple):
 
     name : of the solid in messages
     path : its key path
-    way : the transfer
+    interval : the transfer
     at : mission time, seconds
     has, needs : distances from the body at that time, metres
     least : least distance on the whole transfer, metres
@@ -41,7 +41,7 @@ class ClosestPass(NamedTuple):
 
     name: str
     path: KeyPath
-    way: TransitInterval
+    interval: TransitInterval
     at: float
     has: float
     needs: float
@@ -62,7 +62,7 @@ def reported_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Dia
             yield _refused(ir, claim, passes[0])
             continue
         for one in (p for p in passes if p.needs - p.has > WORTH_SHARE * p.needs):
-            soft.setdefault((claim.subject, one.way), []).append((claim, one))
+            soft.setdefault((claim.subject, one.interval), []).append((claim, one))
     for together in soft.values():
         yield _diagnostic(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
 
@@ -150,7 +150,7 @@ def _refused(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Diagnostic:
 
 def _near(claim: Claim, passed: ClosestPass) -> str:
     has, needs = distinct_measures(passed.has, passed.needs, "m")
-    return f"{passed.name} at {has} {_where(passed.way)}; {needs} {_kept(claim)}"
+    return f"{passed.name} at {has} {_where(passed.interval)}; {needs} {_kept(claim)}"
 
 
 def _kept(claim: Claim) -> str:
@@ -172,7 +172,7 @@ def _labels(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Iterator[Lab
     if claim.hard:
         yield mission.origins.value(claim.path, "required here")
     yield mission.origins.key(passed.path, "is passed")
-    shot = next((s for s in mission.shots if s.id == passed.way.shot), None)
+    shot = next((s for s in mission.shots if s.id == passed.interval.shot), None)
     if shot is not None:
         yield mission.origins.key(shot.path, "on the way here")
     else:

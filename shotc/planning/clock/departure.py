@@ -101,12 +101,12 @@ class When:
     """The time window of a transfer, mission times in seconds.
 
     ready : earliest departure
-    due : deadline of the arrival, if there is one
+    deadline : deadline of the arrival, if there is one
     stays : the drone stands at the end of the transfer at least until then
     """
 
     ready: float
-    due: float | None = None
+    deadline: float | None = None
     stays: float = 0.0
 
 
@@ -133,11 +133,11 @@ def choose(
     def waits(transfer: Transfer) -> float:
         """Return the seconds that the next leg waits longer than with the first candidate."""
         ready = 0.0 if then is None else then.ready
-        return 0.0 if when.due is not None else max(transfer.end, ready) - max(tried[0].end, ready)
+        return 0.0 if when.deadline is not None else max(transfer.end, ready) - max(tried[0].end, ready)
 
     for legs in ways:
         for transfer in _tries(mission, drone, others, legs, when, then):
-            in_time = when.due is None or transfer.end <= when.due
+            in_time = when.deadline is None or transfer.end <= when.deadline
             tried.append(transfer)
             fine = (
                 _unseen(others, transfer, waits(transfer)) >= 0.0
@@ -147,7 +147,7 @@ def choose(
                 return transfer
         if not others.moving:
             break
-    deadline = inf if when.due is None else when.due
+    deadline = inf if when.deadline is None else when.deadline
 
     def worth(transfer: Transfer) -> tuple[bool, bool, float, float, float, float, float]:
         late = max(0.0, transfer.end - deadline)
@@ -195,7 +195,7 @@ def _tries(
     when: When,
     then: NextLeg | None,
 ) -> Iterator[Transfer]:
-    begin, deadline = when.ready, when.due
+    begin, deadline = when.ready, when.deadline
     curves = [motion.curve for leg in legs if (motion := leg_motion(drone, leg)) is not None]
     duration = sum(float(curve.end) for curve in curves)
     next_motion = None if then is None else leg_motion(drone, then.leg)
@@ -233,14 +233,14 @@ class _Course:
 
     curves : positions over the time of each leg that takes time
     leaves : mission time of the departure
-    film : positions of a shot on a path that it flies from mission time ``until`` on, if there is one
+    film : positions of a shot on a path that it flies from mission time ``end`` on, if there is one
     """
 
     legs: list[MovingLeg]
     curves: Sequence[Piecewise]
     leaves: float
     film: Piecewise | None
-    until: float
+    end: float
 
     def at(self, times: Array) -> Array:
         """Return positions (M, 3) at mission times (M,); the drone stands before and after."""
@@ -250,7 +250,7 @@ class _Course:
             _from(places, times, begin, curve)
             begin += float(curve.end)
         if self.film is not None:
-            _from(places, times, self.until, self.film)
+            _from(places, times, self.end, self.film)
         return places
 
     def upright(self, times: Array) -> Mask:

@@ -85,7 +85,7 @@ class _Last(NamedTuple):
     placed: PlacedShot
     start: float
     before: _State
-    aside: tuple[bool, bool]
+    ends_aside: tuple[bool, bool]
 
 
 @dataclass(slots=True)
@@ -139,7 +139,7 @@ class Itinerary:
         before = self._state()
         outcome = add()
         if isinstance(outcome, TooLate) or self.late > LATE_S:
-            tries = ((False, False), (True, False)) if before.last and before.last.aside[1] else ()
+            tries = ((False, False), (True, False)) if before.last and before.last.ends_aside[1] else ()
         elif isinstance(outcome, Meets) or self.slack < 0.0:
             tries = (False, True), (True, True)
         else:
@@ -166,7 +166,7 @@ class Itinerary:
         self._restore(before)
         for led in ends:
             reached = self._reached_as(placed, start, leading_aside(*led))
-            if isinstance(reached, Reached) and reached.way.met is None and reached.late <= LATE_S:
+            if isinstance(reached, Reached) and reached.transfer.met is None and reached.late <= LATE_S:
                 self._add(placed, reached)
                 return True
         return False
@@ -282,19 +282,19 @@ class Itinerary:
         trouble = self._late(placed, reached)
         if trouble is not None:
             return trouble
-        if not reached.way.clear and (fixed is None or reached.way.met is not None):
+        if not reached.transfer.clear and (fixed is None or reached.transfer.met is not None):
             freer = self._later(placed, reached.shot.leg.start)
             if fixed is None:
                 reached = freer or reached
-            if reached.way.met is not None:
-                return Meets(reached.way.met, None if freer is None else freer.shot.leg.start)
+            if reached.transfer.met is not None:
+                return Meets(reached.transfer.met, None if freer is None else freer.shot.leg.start)
         self._add(placed, reached)
         return None
 
     def _add(self, placed: PlacedShot, reached: Reached) -> None:
         """Add a shot on its own clock and the transfer to it."""
-        self.last = _Last(placed, reached.shot.leg.start, self._state(), reached.aside)
-        self._take(reached.way)
+        self.last = _Last(placed, reached.shot.leg.start, self._state(), reached.ends_aside)
+        self._take(reached.transfer)
         leg = turned_leg(reached.shot.leg, end_of(self.legs))
         self.legs.append(leg)
         self.clock = float(leg.curve.end)
@@ -323,7 +323,7 @@ class Itinerary:
         first : the same shot at its earliest feasible start, or at the last start that was tried
         """
         leg, there = first.shot.leg, first.late <= LATE_S
-        path = TimedPath(self.drone.name, (*self.legs, *first.way.legs, leg))
+        path = TimedPath(self.drone.name, (*self.legs, *first.transfer.legs, leg))
         before = [
             p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE_S
         ]
@@ -336,7 +336,7 @@ class Itinerary:
         """Return the shot at the first of some later starts to which there is a clear transfer."""
         for more in LATER_S:
             reached = self._reached(placed, start + more)
-            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
+            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.transfer.clear:
                 return reached
         return None
 
@@ -355,7 +355,7 @@ class Itinerary:
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
         tries = (
             (leading_aside(True, out), FROM_AFAR)
-            if near.way.met
+            if near.transfer.met
             else (leading_aside(into, out),)
             if into or out
             else ()
@@ -378,7 +378,7 @@ class Itinerary:
         transfer = self._transfer(made.leg.pose, placed, curve_start)
         if not isinstance(transfer, Transfer):
             return transfer
-        return Reached(made, transfer, transfer.end - curve_start, requirements[0].aside)
+        return Reached(made, transfer, transfer.end - curve_start, requirements[0].ends_aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""

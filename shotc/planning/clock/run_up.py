@@ -41,13 +41,13 @@ class RunUp:
 
     seconds : its duration
     place, velocity : at its film end, shape (3,), metres and m/s
-    aside : shift of the place of rest from the straight course, shape (3,), metres
+    shift : shift of the place of rest from the straight course, shape (3,), metres
     """
 
     seconds: float
     place: Array
     velocity: Array
-    aside: Array = field(default_factory=partial(np.zeros, 3))
+    shift: Array = field(default_factory=partial(np.zeros, 3))
 
     @property
     def rest(self) -> Array:
@@ -68,7 +68,7 @@ class RunUp:
             _bounds(limits, min(limits.climb, limits.descent)).rest_to_rest(rise),
         )
         least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
-        return replace(self, seconds=least / (1.0 - GOES_ON) if shift.any() else self.seconds, aside=shift)
+        return replace(self, seconds=least / (1.0 - GOES_ON) if shift.any() else self.seconds, shift=shift)
 
     def at(self, away: Array) -> Array:
         """Return positions (M, 3) at times (M,) relative to the film's end, seconds; negative is before the
@@ -79,13 +79,13 @@ class RunUp:
         camera would run into a drone that slows down first.
         """
         x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
-        goes_on = GOES_ON if self.aside.any() else 0.0
+        goes_on = GOES_ON if self.shift.any() else 0.0
         y = np.minimum(x / (1.0 - goes_on), 1.0)
         evenly = np.minimum(1.0 - x, goes_on)
         flown = self.seconds * (evenly + (1.0 - goes_on) * (0.5 - y**3 + 0.5 * y**4))
         beside = minimum_jerk(np.minimum((1.0 - x) / ACROSS, 1.0))
         straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
-        return np.asarray(straight + beside[:, None] * self.aside)
+        return np.asarray(straight + beside[:, None] * self.shift)
 
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> RunUp:

@@ -64,7 +64,7 @@ class EndRequirement(NamedTuple):
 
     stand: float
     longer: float
-    aside: tuple[bool, bool] = (False, False)
+    ends_aside: tuple[bool, bool] = (False, False)
 
 
 ASKED = (
@@ -298,9 +298,9 @@ def _ways(
     before, after = (
         run_up.lasting(ask.longer) for run_up in run_ups(camera_task.mission, camera_task.drone, shot, start)
     )
-    if ask.aside[0]:
+    if ask.ends_aside[0]:
         before = _led(before, -1.0, start, around, camera_task.drone)
-    if ask.aside[1]:
+    if ask.ends_aside[1]:
         after = _led(after, 1.0, end, around, camera_task.drone)
     return before, after
 
@@ -312,7 +312,7 @@ def _led(
     led = run_up
     for _ in range(MOST_ASIDES):  # a longer shift takes longer, which moves the straight end
         rest = film + sign * led.seconds
-        straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
+        straight = led.at(np.array([sign * led.seconds]))[0] - led.shift
         # The span includes the run-up, because an obstacle that passes then would meet the drone.
         span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
         led = run_up.led(shift_beside_traffic(*around, straight, span), drone.limits)

@@ -86,21 +86,21 @@ class TooLate:
 class Reached:
     """A planned shot, the transfer to it, and the drone's delay there in seconds.
 
-    aside : whether the shot begins, and whether it ends, away from moving obstacles
+    ends_aside : whether the shot begins, and whether it ends, away from moving obstacles
     """
 
     shot: TimedShot
-    way: Transfer
+    transfer: Transfer
     late: float
-    aside: tuple[bool, bool]
+    ends_aside: tuple[bool, bool]
 
     def better(self, near: Reached) -> bool:
         """Return whether this shot, with other ends, is better than one whose transfer or run-ups lack
         clearances.
         """
-        if self.way.met is not None or self.late > max(0.0, near.late):
+        if self.transfer.met is not None or self.late > max(0.0, near.late):
             return False
-        return near.way.met is not None or (
+        return near.transfer.met is not None or (
             max(self.shot.lacks) < LESS_SHARE * max(near.shot.lacks)
             and self.shot.off <= near.shot.off + SLIGHT_M
         )

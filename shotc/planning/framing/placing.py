@@ -22,14 +22,14 @@ class Unmet(NamedTuple):
     """A keyframe whose composition is infeasible.
 
     aim : (yaw, pitch) as the author framed it, rad
-    asked : place on screen of that framing; None where the keyframe keeps its author's framing
+    requested : place on screen of that framing; None where the keyframe keeps its author's framing
     place : where the target stands instead; None where no place shows it whole
     """
 
     keyframe: Keyframe
     setting: FixedCamera
     aim: Vec2
-    asked: Vec2 | None
+    requested: Vec2 | None
     place: Vec2 | None
 
 

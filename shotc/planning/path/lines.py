@@ -39,7 +39,7 @@ class Polyline:
     dropped : keyframes that the path leaves out
     moved : whether the first, and the last, keyframe is moved
     drawn : places that attract the path instead of generated keyframes, (K, 3); None where these do
-    aside : corners that attract ways between placed keyframes
+    attractors : corners that attract ways between placed keyframes
     """
 
     corners: Array
@@ -48,7 +48,7 @@ class Polyline:
     dropped: tuple[int, ...] = ()
     moved: tuple[bool, bool] = (False, False)
     drawn: Array | None = None
-    aside: tuple[int, ...] = ()
+    attractors: tuple[int, ...] = ()
 
     @property
     def loose(self) -> bool:
@@ -142,7 +142,7 @@ def line_beside(
         return ways
     ends = np.cumsum([len(leg) - 1 for leg in ways])
     drawing = tuple(int(end) for end, k in zip(ends, of[1:], strict=True) if k < 0)
-    return replace(_joined(keyframes, points[0], of, ways), aside=drawing)
+    return replace(_joined(keyframes, points[0], of, ways), attractors=drawing)
 
 
 def _drawn(

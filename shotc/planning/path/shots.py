@@ -265,7 +265,7 @@ def _stretch(placed: PlacedShot, line: Polyline, first: int, last: int) -> Polyl
     bound, pulled, pulled_at = [0], [], []
     for i in range(first + 1, last):
         k = line.of[i]
-        if i in line.aside:
+        if i in line.attractors:
             pulled.append(line.corners[i])
             pulled_at.append(line.s[i])
         if k < 0:
@@ -284,7 +284,7 @@ def _stretch(placed: PlacedShot, line: Polyline, first: int, last: int) -> Polyl
         pulled=np.array(pulled).reshape(-1, 3),
         pulled_at=np.array(pulled_at),
         pace=placed.shot.pace,
-        pull=SIGHT_WEIGHT if line.aside else PULL_WEIGHT,
+        pull=SIGHT_WEIGHT if line.attractors else PULL_WEIGHT,
     )
 
 

@@ -27,7 +27,7 @@ class Swing:
     target : its name
     turn : turn of the picture, rad; 0 where the camera only misses its reference
     pitch : of the camera there, rad
-    aside : metres beside the target from which there is no such turn
+    offset : metres beside the target from which there is no such turn
     miss : largest error of the camera's direction, rad
     """
 
@@ -36,7 +36,7 @@ class Swing:
     target: str
     turn: float
     pitch: float
-    aside: float
+    offset: float
     miss: float
 
 

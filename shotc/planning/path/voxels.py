@@ -74,7 +74,7 @@ def route_through(space: FreeSpace, start: Array, end: Array) -> Array | None:
             if (around, grid.side) in sides:
                 continue
             sides.add((around, grid.side))
-            route = _Search(space, grid, start, end).way()
+            route = _Search(space, grid, start, end).route()
             if route is not None:
                 return _in_short_legs(_pulled(space, route))
     return None
@@ -112,7 +112,7 @@ class _Search:
         count = len(self.nodes)
         self.graph = csr_array(coo_array((price, (np.minimum(a, b), np.maximum(a, b))), shape=(count, count)))
 
-    def way(self) -> Array | None:
+    def route(self) -> Array | None:
         """Return the cheapest route whose edges are all free, shape (K, 3); None if there is none."""
         for _ in range(MOST_SEARCHES):
             cost, before = dijkstra(self.graph, directed=False, indices=0, return_predecessors=True)

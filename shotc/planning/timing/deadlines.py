@@ -43,13 +43,13 @@ class TooFast:
     """A deadline of a leg that is infeasible.
 
     mark : keyframe that is not reached in time; None for the end of the leg
-    asked, shortest : seconds from the leg's start; shortest is the earliest feasible time, None if no delay
+    deadline, shortest : seconds from the leg's start; shortest is the earliest feasible time, None if no delay
         of it is feasible
     shifts_rest : whether all later times have to move by the same amount
     """
 
     mark: Mark | None
-    asked: float
+    deadline: float
     shortest: float | None
     shifts_rest: bool = False
 

@@ -62,14 +62,14 @@ class FlightConflict(NamedTuple):
 class FlightChange:
     """A changed trajectory.
 
-    until : time from which it is unchanged, seconds
-    told : kind of the change, and its seconds
+    end : time from which it is unchanged, seconds
+    stat : kind of the change, and its seconds
     """
 
     of: int
     flight: FleetTrajectory
-    until: float
-    told: tuple[str, float]
+    end: float
+    stat: tuple[str, float]
 
 
 def beside(mission: MissionIR, directors: Sequence[Director]) -> list[tuple[str, float | str]]:
@@ -111,7 +111,7 @@ class _Sky:
         for pair in self.met:
             if change.of in pair:
                 self.met[pair] = self._first(*pair, self.flights[pair[0]])
-        what, seconds = change.told
+        what, seconds = change.stat
         key = f"fleet {director.fleet.name} {what}"
         self.told[key] = self.told.get(key, 0.0) + seconds
 
@@ -119,7 +119,7 @@ class _Sky:
         """Return the least change that resolves a meeting, or None."""
         pair = (meeting.one, meeting.other)
         changes = [c for k, of in enumerate(pair) for c in self._changes(of, pair[1 - k], meeting.near)]
-        changes.sort(key=lambda change: abs(change.told[1]))
+        changes.sort(key=lambda change: abs(change.stat[1]))
         return next((change for change in changes if self._does(change, pair)), None)
 
     def _does(self, change: FlightChange, pair: tuple[int, int]) -> bool:
@@ -130,7 +130,7 @@ class _Sky:
         others = sorted((k for k in range(len(self.flights)) if k != change.of), key=lambda k: k not in pair)
         for k in others:
             met = self._first(change.of, k, flight)
-            if met is not None and met.near.time < change.until:
+            if met is not None and met.near.time < change.end:
                 return False
         return True
 
@@ -162,7 +162,7 @@ class _Sky:
         block = block_at(flight, time)
         if block is None:
             return
-        end = float(flight.breaks[block.way.last])
+        end = float(flight.breaks[block.stretch.last])
         slack = 0.0 if time >= home else self._slack(flight, block) - LEAST_S
         for seconds in (s for s in SHIFTS_S if s <= slack):
             yield FlightChange(of, earlier(flight, block, seconds), end, ("sets out earlier", seconds))
@@ -170,7 +170,7 @@ class _Sky:
 
     def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[FlightChange]:
         """Yield a path around the places that the other fleet occupies, if there is time for it."""
-        flight, stretch = self.flights[of], block.way
+        flight, stretch = self.flights[of], block.stretch
         low, high = float(flight.breaks[stretch.first]), float(flight.breaks[stretch.last])
         kind = next(phase for phase in flight.phases if phase.start - LEAST_S < high <= phase.end + LEAST_S)
         if kind.name == "land" or any(low < s.start < high - LEAST_S for s in flight.shown):

@@ -29,7 +29,7 @@ class FlightBlock:
     stretches: tuple[Window, ...]
 
     @property
-    def way(self) -> Window:
+    def stretch(self) -> Window:
         """The last stretch."""
         return self.stretches[-1]
 
@@ -80,8 +80,8 @@ def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
 def earlier(flight: FleetTrajectory, block: FlightBlock, seconds: float) -> FleetTrajectory:
     """Return the trajectory that arrives at a picture earlier and waits there until its time."""
     flight, block = _ready(flight, block)
-    low, high = float(flight.breaks[block.first]), float(flight.breaks[block.way.last])
-    first, last = block.first, block.way.last
+    low, high = float(flight.breaks[block.first]), float(flight.breaks[block.stretch.last])
+    first, last = block.first, block.stretch.last
     own = flight.breaks[first : last + 1] - seconds
     breaks = np.concatenate([flight.breaks[:first], own, flight.breaks[last:]])
     moved = replace(flight, breaks=np.round(breaks, 9), coef=_repeated(flight.coef, last))
@@ -95,7 +95,7 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
     time.
     """
     flight, block = _ready(flight, block)
-    stretch = block.way
+    stretch = block.stretch
     low, high = float(flight.breaks[stretch.first]), float(flight.breaks[stretch.last])
     here, there = flight.coef[:, stretch.first], flight.coef[:, stretch.last]
     between = [np.round(points, CONTROL_DECIMALS) for points in move.between(here, there)]

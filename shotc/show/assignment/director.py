@@ -114,7 +114,7 @@ class Director:
         here = score.places if self._done else self.cast.up.above
         rise = way_up(self.fleet, self.cast.up)
         lead = 0.0 if self._done else rise.duration
-        move, duration = self._way(display, first, here, scenes[0].places)
+        move, duration = self._move_to(display, first, here, scenes[0].places)
         wait = self._wait(display, score.clock + lead + duration, ready)
         score.stand(wait)
         if not self._done:
@@ -157,7 +157,7 @@ class Director:
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
             if frames[0] is not scenes[0]:
-                move, duration = self._way(display, picture, self.score.places, frames[0].places)
+                move, duration = self._move_to(display, picture, self.score.places, frames[0].places)
                 self._stand_until(picture, duration)
                 self.score.move(frames[0].places, move, duration)
             self._show(display, picture, frames)
@@ -187,7 +187,7 @@ class Director:
         for scene, start, end in zip(frames, times, ends, strict=True):
             score.shown.append(FrameTimes(display.id, scene.frame.picture, scene.frame.index, start, end))
 
-    def _way(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
+    def _move_to(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
         """Return the move to a picture, and its duration."""
         if picture.wave is not None:
             wave = self.waves.move((here, there), display, picture)

@@ -60,7 +60,7 @@ class Mover:
         free = self._free(ends)
         if path == "straight" or (path == "auto" and free is None):
             return self.straight(ends, pace, picture)
-        move, lack = self._arcs(ends, free, pace, picture, self.sky.room)
+        move, lack = self._arcs(ends, free, pace, picture, self.sky.surroundings)
         if lack.metres <= ROUNDING_M:
             return move
         lifted = over(ends, task, Course(move.pivot, Gaps(1.0, 1.0) if free is None else free))
@@ -86,7 +86,7 @@ class Mover:
         if lifted is not None and lifted.lack.metres <= ROUNDING_M:
             return lifted.move
         if picture is None or picture.transition_path == "auto":
-            arcs, swell = self._arcs(ends, self._free(ends), pace, picture, self.sky.room)
+            arcs, swell = self._arcs(ends, self._free(ends), pace, picture, self.sky.surroundings)
             if swell.metres <= ROUNDING_M:
                 return arcs
         least = lack if lifted is None else lifted.lack
@@ -131,7 +131,7 @@ class Mover:
         """
         if picture is not None and picture.transition_path == "straight":
             return None
-        surroundings = replace(self.sky.room, obstacles=(*self.sky.room.obstacles, *beside))
+        surroundings = replace(self.sky.surroundings, obstacles=(*self.sky.surroundings.obstacles, *beside))
         move, lack = self._arcs(ends, self._free(ends), pace, picture, surroundings)
         return move if lack.metres <= ROUNDING_M else None
 

@@ -40,7 +40,7 @@ class LiftedCandidate(NamedTuple):
 class MoveSurroundings(NamedTuple):
     """The allowed space of moves: clear of the obstacles of a room, and between two heights."""
 
-    room: DisplaySurroundings
+    surroundings: DisplaySurroundings
     heights: Heights
 
     def lack(self, ends: Ends, move: Motion) -> RoomLack:
@@ -48,7 +48,7 @@ class MoveSurroundings(NamedTuple):
         counted.
         """
         flown = flown_of(ends, move)
-        worst = self.room.worst(flown)
+        worst = self.surroundings.worst(flown)
         high = max(self.heights.high, *(float(e[:, 2].max()) for e in ends))
         above = float(flown.ctrl[..., 2].max()) - high
         return RoomLack(above, None) if above > worst.metres else worst
@@ -76,7 +76,7 @@ def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
     best: LiftedCandidate | None = None
     drive = task.limits, task.pace, task.easing
     for every in (False, True):
-        need = partial(_need, ends, course.pivot, task.sky.room, every=every)
+        need = partial(_need, ends, course.pivot, task.sky.surroundings, every=every)
         paths, higher = rising_paths(ends, course, need), 0.0
         for k in range(ROUNDS):
             shape = lifted(ends, course, [path.higher(higher) for path in paths], drive)

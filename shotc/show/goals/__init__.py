@@ -71,7 +71,7 @@ def _display(
         straight=straight_spacing(fleet.apart),
         viewpoint=None if display.viewpoint is None else np.array(display.viewpoint),
         weight=display.weight,
-        room=room_of(mission, fleet),
+        surroundings=room_of(mission, fleet),
     )
     number = mission.displays.index(display)
     drawn = []

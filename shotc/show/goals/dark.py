@@ -50,7 +50,7 @@ def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
     def free(layer: int, side: Array) -> Array:
         depth = float(((shown - middle) @ side).max())
         places = sheet + (depth + layer * step) * side
-        return np.asarray(places[setting.room.lack(places) <= 0])
+        return np.asarray(places[setting.surroundings.lack(places) <= 0])
 
     blocked = False
     for layer in range(1, MOST_LAYERS + 1):

@@ -41,7 +41,7 @@ def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> L
     places, layer = widest_layers(mould(POINTS_PER_PLACE * len(first)), layers, setting.number, setting.least)
     back = (layer - 0.5 * (count - 1)) * layers.depth * setting.least
     goals = body.standing(places / scale) + back[:, None] * body.axes[1]
-    goals = goals[setting.room.lack(goals) <= 0.0] if len(goals) else goals
+    goals = goals[setting.surroundings.lack(goals) <= 0.0] if len(goals) else goals
     spare = setting.number - len(goals)
     if spare == 0 or spare > MOST_DARK_SHARE * setting.number:
         return Lit(goals, len(goals), True)

@@ -146,7 +146,7 @@ class Strokes:
         if lattice is None:
             return None
         goals = self.placed(lattice)
-        free = bool((self.setting.room.lack(goals) <= 0.0).all())
+        free = bool((self.setting.surroundings.lack(goals) <= 0.0).all())
         return Lit(goals, len(goals), True) if free else None
 
     def most(self) -> tuple[Array, bool]:
@@ -179,7 +179,7 @@ class Strokes:
 
     def _in_lattice(self, points: Array) -> Array:
         places = laid(self._mould(points), self.setting.least)
-        return places[self.setting.room.lack(self.placed(places)) <= 0.0] if len(places) else places
+        return places[self.setting.surroundings.lack(self.placed(places)) <= 0.0] if len(places) else places
 
     def _started(self, points: Array, number: int) -> Array:
         if self.fill == "outline":
@@ -229,5 +229,5 @@ class Strokes:
         return np.asarray(self.body.flat(self.goals.points) * self.scale)
 
     def _held(self, before: Array, after: Array) -> Array:
-        held = self.setting.room.hold(self.placed(before), self.placed(after))
+        held = self.setting.surroundings.hold(self.placed(before), self.placed(after))
         return np.asarray(self.body.flat(held) * self.scale)

@@ -42,7 +42,7 @@ def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
     if isinstance(layout, Diagnostic):
         return PictureResult((), (layout,))
     shown = [goals.shown for goals in layout.placed]
-    faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.room)
+    faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.surroundings)
     if faults:
         return PictureResult((), tuple(faults))
     if not layout.flown:

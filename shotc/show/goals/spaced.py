@@ -48,7 +48,7 @@ class SpacingTask:
     straight : distance above which straight moves need no proof, in the metric of the fleet, m
     viewpoint : shape (3,), or None
     weight : the paper's c-bar
-    room : the free space for goals
+    surroundings : the free space for goals
     """
 
     number: int
@@ -58,7 +58,7 @@ class SpacingTask:
     straight: float
     viewpoint: Array | None
     weight: float
-    room: DisplaySurroundings
+    surroundings: DisplaySurroundings
 
     @property
     def roomy(self) -> SpacingTask:
@@ -131,7 +131,7 @@ def in_lattice(setting: SpacingTask, draw: Draw) -> Array:
     lattice = widest(mould, setting.number, setting.least)
     lattice = laid(mould, setting.least) if lattice is None else lattice
     goals = lattice / setting.scale
-    return np.asarray(goals[setting.room.lack(goals) <= 0.0]) if len(goals) else goals
+    return np.asarray(goals[setting.surroundings.lack(goals) <= 0.0]) if len(goals) else goals
 
 
 def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
@@ -188,7 +188,7 @@ def _mould(setting: SpacingTask, points: Array) -> Mould:
 
 
 def _held(setting: SpacingTask) -> Hold:
-    scale, surroundings = setting.scale, setting.room
+    scale, surroundings = setting.scale, setting.surroundings
 
     def hold(before: Array, after: Array) -> Array:
         return np.asarray(surroundings.hold(before / scale, after / scale) * scale)

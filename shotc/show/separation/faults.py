@@ -29,12 +29,12 @@ DEGREE = 3
 class RepairAttempts(NamedTuple):
     """What was tried for a stretch without success.
 
-    found : the nearest pair of the flight that the goals ask for
+    nearest : the nearest pair of the flight that the goals ask for
     best : separation of the best flight found, m
     seconds : a duration in which it can be flown, None if none was found
     """
 
-    found: Nearest
+    nearest: Nearest
     best: float
     seconds: float | None
 
@@ -70,7 +70,7 @@ def recorded_too_near(
     mission: MissionIR, fleet: Fleet, picture: Picture, tried: RepairAttempts
 ) -> Diagnostic:
     """Return D156: two drones of a recorded flight come too near, and no repair was found."""
-    nearest, across = tried.found, fleet.apart.across
+    nearest, across = tried.nearest, fleet.apart.across
     notes = [_who(fleet, nearest)]
     if tried.best > 0.0:
         notes.append(f"the best flight found within their limits keeps {at_most(tried.best)} m")
@@ -90,7 +90,7 @@ def too_near(
 ) -> Diagnostic:
     """Return D086: between two stops no flight was found that keeps the drones apart."""
     path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
-    nearest, across = tried.found, fleet.apart.across
+    nearest, across = tried.nearest, fleet.apart.across
     return Diagnostic(
         "D086",
         f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "

@@ -38,14 +38,14 @@ class MoveBetweenStops:
     """The flight from one stop to the next.
 
     breaks : shape (P + 1,)
-    wanted : control points that the goals ask for, shape (n, P + 3, 3)
+    reference : control points that the goals ask for, shape (n, P + 3, 3)
     shown : the picture at its end, None on the way home
     key : the mission's key of its duration
     from_pads : whether it starts over the pads
     """
 
     breaks: Array
-    wanted: Array
+    reference: Array
     shown: FrameTimes | None
     key: Literal["period", "transition"]
     from_pads: bool
@@ -110,7 +110,7 @@ class _Trial:
         stretch, fleet, ctx = self.stretch, self.fleet, self.ctx
         ctx.progress(f"keeping fleet {fleet.name} apart: would `{stretch.key}: {seconds:.2f}` do")
         breaks, bounds = stretch.lasting(seconds), DerivativeBounds(fleet.limits)
-        done = bounded(breaks, stretch.wanted, bounds)
+        done = bounded(breaks, stretch.reference, bounds)
         if len(done.failed):
             return False
         coef = short(breaks, done.coef, bounds, CONTROL_DECIMALS)

@@ -40,11 +40,11 @@ MOST_ITERATIONS = 60
 class Push:
     """The strength of one iteration.
 
-    wanted : horizontal distance of pairs, m
+    distance : horizontal distance of pairs, m
     weight : of the squared distances, relative to the deviation
     """
 
-    wanted: float
+    distance: float
     weight: float
 
 
@@ -155,7 +155,7 @@ class _Cost:
         self.offset = (basis @ self.ends.reshape(len(self.ends), -1)).reshape(-1, *self.shape[1:])
         self.step = float(times[1] - times[0])
         at = places(pusher.breaks, start, times) * pusher.scale
-        reach = self.push.wanted + NEAR_SHARE * pusher.apart.across
+        reach = self.push.distance + NEAR_SHARE * pusher.apart.across
         # Rows of the movable drones; -1 for fixed drones.
         row = np.full(len(start), -1, dtype=np.intp)
         row[movable] = np.arange(len(movable))
@@ -200,10 +200,10 @@ class _Cost:
         at = at.reshape(-1, 3)
         others = np.where(self.both[:, None], at.take(self.second, axis=0), self.fixed)
         relative = at.take(self.first, axis=0) - others
-        close = np.flatnonzero(sizes(relative, pusher.apart) < self.push.wanted)
+        close = np.flatnonzero(sizes(relative, pusher.apart) < self.push.distance)
         relative, both = relative[close], self.both[close]
         size = sizes(relative, pusher.apart)
-        lack = self.push.wanted - size
+        lack = self.push.distance - size
         pull_apart = slopes(relative, size, pusher.apart) * pusher.scale
         force = -2.0 * self.step * lack[:, None] * pull_apart
         cells = np.concatenate([self.first[close], self.second[close][both]])

@@ -309,7 +309,7 @@ class _State:
     programme: FleetProgramme
     base: Array
     pull: Array
-    wanted: Array
+    reference: Array
     x: Array
     z: Array
     u: Array
@@ -362,7 +362,7 @@ class _State:
 
     def _slope(self, x: Array, forces: Array, some: Index) -> Array:
         flat = (len(x), -1)
-        slope = (self.programme.inner @ (x - self.wanted[:, some]).reshape(flat)).reshape(x.shape)
+        slope = (self.programme.inner @ (x - self.reference[:, some]).reshape(flat)).reshape(x.shape)
         left = slope + (self.programme.back @ forces.reshape(len(forces), -1)).reshape(x.shape)
         size = np.sqrt(np.einsum("knd,knd->n", slope, slope))
         rest = np.sqrt(np.einsum("knd,knd->n", left, left))

@@ -37,20 +37,20 @@ class FlownFleet:
     """The simulated flight of a fleet, sampled every ``PERIOD_S``: times (T,), all else (n, T, 3).
 
     position, velocity : of the drones over ground
-    wanted : planned positions
+    planned : planned positions
     preferred : velocities that the controller asks for, before avoidance
     """
 
     times: Array
     position: Array
     velocity: Array
-    wanted: Array
+    planned: Array
     preferred: Array
 
     @property
     def error(self) -> Array:
         """Distance of each drone from its planned position at the same time, shape (n, T), metres."""
-        return np.asarray(np.linalg.norm(self.position - self.wanted, axis=2))
+        return np.asarray(np.linalg.norm(self.position - self.planned, axis=2))
 
     @property
     def rmse(self) -> float:
@@ -65,7 +65,7 @@ class FleetSample:
     time: float
     position: Array
     velocity: Array
-    wanted: Array
+    planned: Array
     preferred: Array
 
 
@@ -99,6 +99,6 @@ def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | 
         np.array([each.time for each in moments]),
         np.stack([each.position for each in moments], axis=1),
         np.stack([each.velocity for each in moments], axis=1),
-        np.stack([each.wanted for each in moments], axis=1),
+        np.stack([each.planned for each in moments], axis=1),
         np.stack([each.preferred for each in moments], axis=1),
     )

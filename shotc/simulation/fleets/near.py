@@ -48,7 +48,7 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Cl
     search = NearestSearch(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
         search.add(time, places)
-    return search.found()
+    return search.nearest()
 
 
 class Across:
@@ -73,7 +73,7 @@ class Across:
             self._between(*self._last, (time, one, other))
         self._last = (time, one, other)
 
-    def found(self) -> ClosestPair:
+    def nearest(self) -> ClosestPair:
         """Return the nearest pair so far; ``first`` is a row of the one fleet, ``second`` of the other."""
         return replace(self._best, below=len(self._low))
 
@@ -121,7 +121,7 @@ class NearestSearch:
             self._between(*self._last, (time, seen), rows)
         self._last = (time, seen)
 
-    def found(self) -> ClosestPair:
+    def nearest(self) -> ClosestPair:
         """Return the nearest pair so far."""
         return replace(self._best, below=len(self._low))
 

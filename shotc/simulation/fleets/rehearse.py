@@ -64,9 +64,9 @@ class Watch:
         if self._standing is not None:
             piece = int(np.searchsorted(self._flight.breaks, moment.time)) - 1
             stands = self._standing[:, max(piece, 0)]
-            position, aloft = np.where(stands[:, None], moment.wanted, position), ~stands
+            position, aloft = np.where(stands[:, None], moment.planned, position), ~stands
             self._beside.add(moment.time, position, np.full(len(stands), stands.any()))
-        error = np.linalg.norm(position - moment.wanted, axis=1)
+        error = np.linalg.norm(position - moment.planned, axis=1)
         self._when = np.where(error > self._largest, moment.time, self._when)
         self._largest = np.maximum(self._largest, error)
         self._squares, self._count = self._squares + float(error @ error), self._count + len(error)
@@ -74,7 +74,7 @@ class Watch:
             self._search.add(moment.time, position, aloft)
         return position
 
-    def found(self) -> FleetRehearsal:
+    def result(self) -> FleetRehearsal:
         """Return the result so far."""
         drone = int(np.argmax(self._largest))
         return FleetRehearsal(
@@ -83,8 +83,8 @@ class Watch:
             farthest=float(self._largest[drone]),
             drone=drone,
             time=float(self._when[drone]),
-            near=self._search.found() if len(self._largest) > 1 else None,
-            beside=None if self._standing is None else self._beside.found(),
+            near=self._search.nearest() if len(self._largest) > 1 else None,
+            beside=None if self._standing is None else self._beside.nearest(),
         )
 
 

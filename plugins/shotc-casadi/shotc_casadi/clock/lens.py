@@ -49,14 +49,14 @@ VALUE, RATE, BEND = range(3)  # indices of the states of a node
 class _Lens(NamedTuple):
     """The task of a lens at the nodes, shapes (N + 1,), fields of view in rad.
 
-    wanted : reference
+    reference : reference
     least : smallest field of view that shows all subjects whole
     weight : of each node
     given : field of view of the guide
     bound : where the given one binds
     """
 
-    wanted: Array
+    reference: Array
     least: Array
     weight: Array
     given: Array
@@ -197,13 +197,13 @@ def _outline(
 def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     """Return field of view, rate and acceleration at the nodes, (N + 1, 3), None if infeasible."""
     n, h, smoother = len(t) - 1, np.diff(t), subject.placed.shot.smoother
-    scale = 1.0 / np.sin(task.wanted)
+    scale = 1.0 / np.sin(task.reference)
     drawn, narrow = 2.0 * task.weight * scale**2, 2.0 * WHOLE_WEIGHT * task.weight * scale**2
     bend = 2.0 * (SMOOTH_S * smoother) ** 6 * h / (t[-1] - t[0]) * scale[:-1] ** 2
     states = np.zeros((n + 1, 3))
     states[:, VALUE] = drawn
     square = np.concatenate([states.ravel(), bend, narrow])
-    states[:, VALUE] = -drawn * task.wanted
+    states[:, VALUE] = -drawn * task.reference
     linear = np.concatenate([states.ravel(), np.zeros(n + n + 1)])
     rows = _Rows(n)
     low, high = lens_bounds(subject.drone, task.given)

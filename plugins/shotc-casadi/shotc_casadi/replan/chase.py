@@ -54,7 +54,7 @@ class ShotChase:
             if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
             done = solver.walk(start, FIRST if last is None else self._until)
-            return flight.told(solver, done, s.time, widened)
+            return flight.replan_of(solver, done, s.time, widened)
 
     def _begin(self, solver: Solver) -> None:
         w, into = self._weights, solver.evaluation

@@ -83,7 +83,7 @@ class ShotSolvers:
         now = time + self.times[:-1] + SOON_S
         return np.asarray(np.maximum(np.searchsorted(last.times, now, side="right") - 1, 0))
 
-    def told(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
+    def replan_of(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
         """Return the result of steps from a measured state."""
         motion = done.motion
         if not (isfinite(motion.worst) and isfinite(motion.states.sum())):

@@ -83,7 +83,7 @@ class Framing:
             if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
             done = solver.walk(start, FIRST if last is None else self._until)
-            return flight.told(solver, done, s.time, widened)
+            return flight.replan_of(solver, done, s.time, widened)
 
     def _flight(self, cast: Cast) -> ShotSolvers:
         if cast not in self._flights:

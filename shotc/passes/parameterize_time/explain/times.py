@@ -46,19 +46,19 @@ def too_fast(
         least = at_least(fault.shortest or 0.0)
         return Diagnostic(
             "T001",
-            f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
+            f"shot `{leg.shot}` is given {plain(fault.deadline)} s, but {least} s is the shortest possible",
             (timing_value(mission, leg.path, "duration"), *labels),
             (f"{least} s is the time at full limits, holds included", *notes),
             _either([f"give it `duration: {least} s`", *raised]),
         )
     message = (
-        f"keyframe {fault.mark.index + 1} of shot `{leg.shot}` cannot be reached at {plain(fault.asked)} s"
+        f"keyframe {fault.mark.index + 1} of shot `{leg.shot}` cannot be reached at {plain(fault.deadline)} s"
     )
     remedy = "give this keyframe or those next to it other times"
     if fault.shortest is not None:
         earliest = at_least(fault.shortest)
         notes = (f"{earliest} s is the earliest possible at full limits", *notes)
-        more = at_least(float(earliest) - fault.asked)
+        more = at_least(float(earliest) - fault.deadline)
         rest = f", and all later times {more} s more" if fault.shifts_rest else ""
         remedy = f"give it `time: {earliest} s`{rest}"
     return Diagnostic(
@@ -94,7 +94,7 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
     labels = [mission.origins.value((*drone.path, "endurance"), "the endurance")]
     if shot is not None:
         labels.append(mission.origins.key(shot.path, "the longest shot"))
-    by = () if drone.power is None else (f"it hovers {drone.lasts}",)
+    by = () if drone.power is None else (f"it hovers {drone.endurance_text}",)
     return Diagnostic(
         "T004",
         f"the flight of `{drone.name}` takes {at_least(total)} s, and its endurance is "

@@ -207,7 +207,7 @@ def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diag
     """Return the fault of a shot that lasts longer than the endurance, as written or at least."""
     duration, calmer = shot.timing.duration, list[str]()
     seconds = f"lasts {duration:.1f} s" if duration is not None else f"takes at least {at_least(least, 1)} s"
-    notes = [f"the shot {seconds}, the endurance is {drone.lasts}"]
+    notes = [f"the shot {seconds}, the endurance is {drone.endurance_text}"]
     if duration is None:
         calmer = less_wind(mission, shot, drone, drone.endurance)
         if calmer:
@@ -307,7 +307,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
                 mission.origins.value((*drone.path, "endurance")),
                 timing_label(mission, last.shot, "its last shot"),
             ),
-            (f"{note}, its endurance is {drone.lasts}", *taken),
+            (f"{note}, its endurance is {drone.endurance_text}", *taken),
             "drop or shorten shots, or cut the mission in two",
         )
     ]

@@ -110,7 +110,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: H
     cast = ShotSurroundings(
         kinds,
         world.drones,
-        world.targets.found,
+        world.targets.by_name,
         world.rules,
         world.files.origin or (ANYWHERE if world.astray else None),
         ir.origins,

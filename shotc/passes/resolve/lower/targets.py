@@ -29,23 +29,23 @@ if TYPE_CHECKING:  # missions without these features do not load them
 class Targets(NamedTuple):
     """The targets, and their faults.
 
-    found : by name, None for one whose track, parts or building cannot be used
+    by_name : by name, None for one whose track, parts or building cannot be used
     boxes : bodies of buildings with several bodies; they have no names of their own in the mission
     """
 
-    found: Mapping[str, Target | None]
+    by_name: Mapping[str, Target | None]
     boxes: tuple[Target, ...]
     faults: tuple[Diagnostic, ...]
 
     @property
     def bodies(self) -> tuple[Target, ...]:
         """Those that stand or move."""
-        return (*(t for t in self.found.values() if t is not None and not t.parts), *self.boxes)
+        return (*(t for t in self.by_name.values() if t is not None and not t.parts), *self.boxes)
 
     @property
     def groups(self) -> tuple[Target, ...]:
         """Those with several bodies."""
-        return tuple(t for t in self.found.values() if t is not None and t.parts)
+        return tuple(t for t in self.by_name.values() if t is not None and t.parts)
 
 
 def targets(
@@ -59,17 +59,17 @@ def targets(
         elif target.parts is None:
             body = {name: _body(name, target, put, tracks.get(name))}
             made = made._replace(
-                found={**made.found, **body}, faults=(*made.faults, *_sideways(name, target, origins))
+                by_name={**made.by_name, **body}, faults=(*made.faults, *_sideways(name, target, origins))
             )
     for name, target in spec.targets.items():
         if target.parts is not None:
             wrong = tuple(_wrong_parts(spec, name, target.parts, origins))
-            parts = [made.found.get(part) for part in target.parts]
+            parts = [made.by_name.get(part) for part in target.parts]
             whole = [part for part in parts if part is not None]
             group = None
             if len(whole) == len(parts) and not wrong:
                 group = _group(name, [body for part in whole for body in _its(part, made.boxes)])
-            made = made._replace(found={**made.found, name: group}, faults=(*made.faults, *wrong))
+            made = made._replace(by_name={**made.by_name, name: group}, faults=(*made.faults, *wrong))
     return made
 
 
@@ -82,12 +82,12 @@ def _with_building(
     path = ("targets", name)
     if len(shapes) == 1:
         own = Target(name, shapes[0].centre, shapes[0].shape, path)
-        return made._replace(found={**made.found, name: own})
+        return made._replace(by_name={**made.by_name, name: own})
     boxes = [
         Target(own, body.centre, body.shape, path)
         for own, body in zip(_box_names(name, shapes, spec), shapes, strict=True)
     ]
-    return made._replace(found={**made.found, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
+    return made._replace(by_name={**made.by_name, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
 
 
 def _box_names(name: str, shapes: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:

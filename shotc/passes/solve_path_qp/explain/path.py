@@ -176,7 +176,7 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
         )
         notes = [f"{where}, the camera looks {degrees(abs(swing.pitch)):.0f} deg {_WAY[over]}"]
         notes += [f"meanwhile {off}"] if swing.miss > NOTICE_RAD else []
-        help_ = f"pass at least {swing.aside:.1f} m to one side of it, or give `heading` and `pitch`"
+        help_ = f"pass at least {swing.offset:.1f} m to one side of it, or give `heading` and `pitch`"
     else:
         message = f"the camera of shot `{shot.shot.id}` cannot keep target `{swing.target}` in its place"
         notes = [f"{where}, {off}"]
