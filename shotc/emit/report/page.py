@@ -34,7 +34,7 @@ class Simulated(NamedTuple):
 
     flown : number and kind of the runs
     tables : each with its head as the first row
-    sentences : sentences
+    sentences : one remark each
     """
 
     flown: str

@@ -101,7 +101,7 @@ class When:
     """The time window of a transfer, mission times in seconds.
 
     ready : earliest departure
-    deadline : deadline of the arrival, if there is one
+    deadline : of the arrival, if there is one
     stays : the drone stands at the end of the transfer at least until then
     """
 

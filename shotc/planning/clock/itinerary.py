@@ -204,7 +204,7 @@ class Itinerary:
         """Return the other vehicles during a transfer.
 
         direct : legs that take about as long
-        deadline : deadline of the arrival, if there is one
+        deadline : of the arrival, if there is one
         """
         end = deadline
         if end is None:
@@ -236,7 +236,7 @@ class Itinerary:
     ) -> Transfer | Failure:
         """Return the unfilmed legs from the current pose, or from the pad, to a shot's first pose.
 
-        deadline : deadline of the arrival, if there is one
+        deadline : of the arrival, if there is one
         ready : earliest start of a shot on a path
         """
         lift = [] if self.legs else [take_off(self.flight, goal)]

@@ -41,7 +41,7 @@ class RunUp:
 
     seconds : its duration
     place, velocity : at its film end, shape (3,), metres and m/s
-    shift : shift of the place of rest from the straight course, shape (3,), metres
+    shift : of the place of rest from the straight course, shape (3,), metres
     """
 
     seconds: float

@@ -43,8 +43,8 @@ class TooFast:
     """A deadline of a leg that is infeasible.
 
     mark : keyframe that is not reached in time; None for the end of the leg
-    deadline, shortest : seconds from the leg's start; shortest is the earliest feasible time, None if no delay
-        of it is feasible
+    deadline, shortest : seconds from the leg's start; shortest is the earliest feasible time, None if no
+        delay of it is feasible
     shifts_rest : whether all later times have to move by the same amount
     """
 

@@ -273,7 +273,7 @@ def test_generated_shots_are_shown_evenly_in_time() -> None:
     (board,) = shot_boards(dense_plan(placed=False))
     assert [m.time for m in board.moments] == pytest.approx([22, 28, 34, 40, 46, 52])
     assert board.total is None
-    assert {(s.target, s.reference, s.asked) for m in board.moments for s in m.framed} == {
+    assert {(s.target, s.reference, s.requested) for m in board.moments for s in m.framed} == {
         ("tower", (0.0, 0.0), None)
     }
     (board,) = shot_boards(dense_plan(placed=True))
@@ -294,7 +294,7 @@ def test_only_the_user_s_own_angles_are_shown_as_his_framing(aim: tuple[float, .
     (board,) = shot_boards(VerifiedIR(replace(plan.trajectory, keyframes=keyframes), plan.certificate))
     own = aim is not None and len(aim) == 2
     (subject,) = board.moments[0].framed
-    assert subject.asked == ((0.3, 0.0) if own else None)
+    assert subject.requested == ((0.3, 0.0) if own else None)
     assert subject.is_moved == own
 
 

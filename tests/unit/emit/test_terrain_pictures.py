@@ -190,7 +190,7 @@ def test_a_map_over_terrain_has_contours_with_their_heights() -> None:
     x, y, z = relief.nodes.reshape(-1, 3).T
     np.testing.assert_allclose(z, height_at(told.terrain.ground, np.column_stack([x, y])))
     np.testing.assert_allclose(sheet.at(relief.nodes[[0, -1], [0, -1], :2]), [[0, 0], [3, 3]], atol=1e-9)
-    assert set(relief.told) < set(relief.levels)
+    assert set(relief.labelled) < set(relief.levels)
     assert z.min() <= relief.levels[0] < relief.levels[0] + relief.step <= z.max()
     with house_style():
         canvas = Canvas(3.0, 3.0, 40.0)
@@ -203,7 +203,7 @@ def test_a_map_over_terrain_has_contours_with_their_heights() -> None:
 def test_level_terrain_has_no_contours() -> None:
     told = mission(ridge(0.0), orbit_plan().trajectory.keyframes.mission.targets[0])
     relief = relief_of(sheet_of(BOX, _board(rise=False), told), told.terrain.ground)
-    assert (relief.step, len(relief.levels), len(relief.told)) == (0.0, 0, 0)
+    assert (relief.step, len(relief.levels), len(relief.labelled)) == (0.0, 0, 0)
 
 
 def test_a_side_view_has_the_ground_below_the_flight_as_profile(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -192,7 +192,7 @@ def test_no_bytes_make_a_traceback(name: str, data: st.DataObject) -> None:
         spoilt[at : at + data.draw(st.integers(0, 3))] = data.draw(st.binary(max_size=3))
     cut = data.draw(st.integers(0, 9))
     whole = bytes(spoilt)[: len(spoilt) * 2 // 3] if cut == 0 else bytes(spoilt)
-    found = read(whole, name).found
+    found = read(whole, name).content
     report = verified((name, whole))
     assert report.holds != has_errors(report.diagnostics)
     if isinstance(found, Refused):
@@ -203,4 +203,4 @@ def test_no_bytes_make_a_traceback(name: str, data: st.DataObject) -> None:
 @settings(max_examples=60, deadline=None)
 @given(data=st.binary(max_size=300), name=st.sampled_from(sorted(GOOD)))
 def test_any_bytes_are_refused(data: bytes, name: str) -> None:
-    assert isinstance(read(data, name).found, Refused)
+    assert isinstance(read(data, name).content, Refused)

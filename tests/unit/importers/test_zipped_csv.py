@@ -151,7 +151,7 @@ def test_a_broken_limit_is_told_in_the_table() -> None:
 
 
 def read_rows(data: bytes) -> tuple[reader.DroneRows, ...]:
-    found = read(data, "show.zip").found
+    found = read(data, "show.zip").content
     assert isinstance(found, tuple)
     assert all(np.isfinite(rows.place).all() for rows in found)
     return found

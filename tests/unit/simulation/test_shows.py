@@ -27,7 +27,7 @@ def test_two_fleets_that_fly_alike_stay_as_far_apart_as_their_pads():
     )
     (run,) = fly_fleets(show(flown), Conditions(), [0])
     (pair,) = run.pairs
-    assert (pair.one, pair.other, pair.asked) == ("swarm", "other", 1.0)
+    assert (pair.one, pair.other, pair.required) == ("swarm", "other", 1.0)
     assert pair.near.distance == pytest.approx(3.0, abs=1e-6)
     assert pair.near.first == pair.near.second
     assert pair.near.below == 0
@@ -41,7 +41,7 @@ def test_a_camera_in_the_way_of_a_fleet_is_told_with_the_drone_that_meets_it():
     (run,) = fly_fleets(show(filmed), Conditions(), [0], [camera(np.array([8.0, 0.2, 5.0]))])
     (pair,) = run.pairs
     assert (pair.one, pair.other) == ("swarm", "cam1")
-    assert pair.asked == 3.0
+    assert pair.required == 3.0
     assert pair.near.distance == pytest.approx(0.2, abs=1e-3)
     assert (pair.near.first, pair.near.second, pair.near.below) == (2, 0, 1)
     assert pair.clearance < 0.0

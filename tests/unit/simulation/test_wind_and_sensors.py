@@ -104,7 +104,7 @@ def test_detections_are_missed_as_often_as_said_and_never_out_of_the_picture():
     uv = np.tile([0.3, -0.2], (n, 1))
     uv[:300] = [1.2, 0.0]
     uv[300:600] = np.nan
-    found, used = detector.found(uv, chances(n))
+    found, used = detector.detections(uv, chances(n))
     assert not used[:600].any()
     assert used[600:].mean() == pytest.approx(0.8, abs=0.03)
     assert (found - uv)[used].std() == pytest.approx(0.02, rel=0.05)

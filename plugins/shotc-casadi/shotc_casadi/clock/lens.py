@@ -49,7 +49,7 @@ VALUE, RATE, BEND = range(3)  # indices of the states of a node
 class _Lens(NamedTuple):
     """The task of a lens at the nodes, shapes (N + 1,), fields of view in rad.
 
-    reference : reference
+    reference : field of view to follow, rad
     least : smallest field of view that shows all subjects whole
     weight : of each node
     given : field of view of the guide

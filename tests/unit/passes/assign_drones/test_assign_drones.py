@@ -32,7 +32,7 @@ def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
     for i, a in enumerate(tasks):
         if a.flown_by not in {None, names[i]}:
             return None
-        if a.flown_by is None and a.start is not None and a.way(names[i]) > a.start + 1e-6:
+        if a.flown_by is None and a.start is not None and a.travel_time(names[i]) > a.start + 1e-6:
             return None
         for j, b in enumerate(tasks):
             if i < j and names[i] == names[j] and a.start is not None and b.start is not None:
@@ -41,7 +41,7 @@ def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
                     return None
     work = dict.fromkeys(DRONES, 0.0)
     for t, name in zip(tasks, names, strict=True):
-        work[name] += t.duration + 0.5 * (t.way(name) + t.back(name))
+        work[name] += t.duration + 0.5 * (t.travel_time(name) + t.back(name))
     return max(work.values()) + WORK_PER_METRE_S * sum(t.length(n) for t, n in zip(tasks, names, strict=True))
 
 

@@ -151,5 +151,5 @@ def test_several_subjects_are_led_apart_on_screen() -> None:
 def test_who_plans_anew_is_told_what_is_asked_at_that_time() -> None:
     plan = planned(text(ONE))
     film = film_of(plan.trajectory.keyframes.mission, plan.trajectory.drones[0])
-    uv = film.framed[0].wanted[film.step(START + 5.0)]
+    uv = film.framed[0].reference[film.step(START + 5.0)]
     assert tuple(uv) == pytest.approx((1 / 3, 0.0), abs=1e-6)

@@ -75,7 +75,7 @@ def arcs(way: tuple[Array, Array]) -> ArcMove:
 def test_another_way_home_takes_its_own_time() -> None:
     block = block_at(FLIGHT, 32.0)
     assert block is not None
-    move = arcs(ends_of(FLIGHT, block.way))
+    move = arcs(ends_of(FLIGHT, block.stretch))
     flown = on_arcs(FLIGHT, block, move)
     whole(flown)
     assert flown.breaks[-1] == pytest.approx(46.0 + move.duration - _lasts(block))
@@ -88,7 +88,7 @@ def test_another_way_home_takes_its_own_time() -> None:
 def test_another_way_to_a_picture_ends_when_the_first_one_did() -> None:
     block = block_at(FLIGHT, 23.0)
     assert block is not None
-    move = arcs(ends_of(FLIGHT, block.way))
+    move = arcs(ends_of(FLIGHT, block.stretch))
     assert 6.0 < move.duration < 9.9
     flown = on_arcs(FLIGHT, block, move)
     whole(flown)

@@ -110,7 +110,7 @@ def test_a_look_ahead_leads_by_its_time():
     path = spline([[2.0 * k, 0, 5] for k in range(15)])
     flown = fly(*path, FleetConditions(gains=Gains(ahead=0.1)))
     middle = np.argmin(np.abs(flown.times - 10.0))
-    lead = (flown.position - flown.wanted)[0, middle, 0]
+    lead = (flown.position - flown.planned)[0, middle, 0]
     assert lead == pytest.approx(2.0 * 0.1, abs=0.01)
 
 

@@ -60,7 +60,7 @@ def test_of_two_fleets_those_of_one_do_not_count(shape, limit):
     search = Across(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
         search.add(time, places[:SPLIT], places[SPLIT:])
-    found, crossing = search.found(), (i < SPLIT) & (j >= SPLIT)
+    found, crossing = search.nearest(), (i < SPLIT) & (j >= SPLIT)
     least = size.min(axis=1)
     k = np.flatnonzero(crossing)[least[crossing].argmin()]
     assert least[~crossing].min() < least[k]
