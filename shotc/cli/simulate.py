@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple, NoReturn
 
 import typer
 
@@ -22,12 +22,14 @@ from shotc.cli.verify import CertificateFormat
 from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
-from shotc.parallel import cores
+from shotc.parallel import Hands, cores
 from shotc.spec.presets import RUN_COUNT
 
 if TYPE_CHECKING:
     from shotc.ir.trajectory import VerifiedIR
     from shotc.simulation.conditions import Conditions
+    from shotc.simulation.rehearsal import RehearsalOptions, Rehearsed
+    from shotc.simulation.unfinished import Unfinished
     from shotc.source.file import SourceFile
 
 FASTEST, FARTHEST = 100.0, 1000.0
@@ -145,54 +147,23 @@ def simulate(
         shotc simulate out/tower --loop track --gps plain --runs 100
     """
     with Progress() as progress:
-        plan, sources, folder = _plan(source, output, progress)
-        from shotc.cli.rehearsed import text
-        from shotc.simulation.deviation_faults import deviations
-        from shotc.simulation.document import json_text
-        from shotc.simulation.faults import not_kept, unflyable
+        proved = _plan(source, output, progress)
         from shotc.simulation.outputs import artifacts
-        from shotc.simulation.rehearsal import RehearsalOptions, conditions_of, rehearse, runs_of
-        from shotc.simulation.runs import simulated
+        from shotc.simulation.rehearsal import RehearsalOptions
         from shotc.simulation.truth import Truth
-        from shotc.simulation.unfinished import Unfinished
 
-        mission = plan.trajectory.keyframes.mission
+        mission = proved.plan.trajectory.keyframes.mission
+        real = Truth(tracks=true_tracks(mission, proved.sources, truth or ()))
+        lost_spans = outages(mission, lost or ())
         options = RehearsalOptions(
-            loop,
-            seeds,
-            wind,
-            from_,
-            gusts,
-            gps,
-            bias,
-            outages(mission, lost or ()),
-            wander,
-            Truth(tracks=true_tracks(mission, sources, truth or ())),
-            seed,
-            replanner,
-            vehicle,
+            loop, seeds, wind, from_, gusts, gps, bias, lost_spans, wander, real, seed, replanner, vehicle
         )
-        conditions = conditions_of(mission, options)
-        faults = (*_unable(conditions, workers), *unflyable(plan.trajectory, conditions))
-        if faults:
-            console.report(faults, sources)
-            raise typer.Exit(console.EXIT_REJECTED)
-        count = runs_of(plan.trajectory, conditions, options)
-        progress(f"flying {count} run{'s' if count > 1 else ''}")
-        kept = Unfinished.of(folder, plan.trajectory, conditions)
-        earlier = kept.done()
-        blocks = kept.keeping(
-            simulated(plan.trajectory, conditions, count, workers or jobs or cores(), earlier), earlier
-        )
-        with at_work():
-            done = rehearse(plan.trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
-        made = artifacts(done, plan, progress)
-    paths, faults = write(made.artifacts, folder)
-    kept.file.forget()
-    diagnostics = (*made.diagnostics, *not_kept(done), *deviations(done), *faults)
-    console.report(diagnostics, sources)
-    console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
-    raise typer.Exit(console.exit_code(diagnostics))
+        conditions = _conditions(proved, options, workers)
+        done, unfinished = _flown(proved, options, conditions, workers or jobs or cores(), progress)
+        made = artifacts(done, proved.plan, progress)
+    paths, faults = write(made.artifacts, proved.folder)
+    unfinished.file.forget()
+    _report(done, (*made.diagnostics, *faults), proved.sources, paths, format)
 
 
 class _Proved(NamedTuple):
@@ -226,6 +197,20 @@ def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> 
     return _Proved(plan, sources, output or beside)
 
 
+def _conditions(proved: _Proved, options: RehearsalOptions, workers: str | None) -> Conditions:
+    """Return the conditions of the runs. If they cannot be flown, report why and exit."""
+    from shotc.simulation.rehearsal import conditions_of
+    from shotc.simulation.rehearsal_faults import unflyable
+
+    trajectory = proved.plan.trajectory
+    conditions = conditions_of(trajectory.keyframes.mission, options)
+    faults = (*_unable(conditions, workers), *unflyable(trajectory, conditions))
+    if faults:
+        console.report(faults, proved.sources)
+        raise typer.Exit(console.EXIT_REJECTED)
+    return conditions
+
+
 def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a vehicle, replanner or cluster that cannot be used."""
     if faults := no_cluster(workers):
@@ -236,3 +221,45 @@ def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ..
         return ()
     known("--replanner", conditions.replanner, plugins.names("replanners"))
     return plugins.one("replanners", conditions.replanner).diagnostics
+
+
+def _flown(
+    proved: _Proved,
+    options: RehearsalOptions,
+    conditions: Conditions,
+    processes: Hands,
+    progress: Callable[[str], None],
+) -> tuple[Rehearsed, Unfinished]:
+    """Fly all runs, without those that an interrupted command has flown, and return them with its record."""
+    from shotc.simulation.rehearsal import rehearse, runs_of
+    from shotc.simulation.runs import simulated
+    from shotc.simulation.unfinished import Unfinished
+
+    trajectory = proved.plan.trajectory
+    count = runs_of(trajectory, conditions, options)
+    progress(f"flying {count} run{'s' if count > 1 else ''}")
+    unfinished = Unfinished.of(proved.folder, trajectory, conditions)
+    earlier = unfinished.done()
+    blocks = unfinished.keeping(simulated(trajectory, conditions, count, processes, earlier), earlier)
+    with at_work():
+        done = rehearse(trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
+    return done, unfinished
+
+
+def _report(
+    done: Rehearsed,
+    of_files: Sequence[Diagnostic],
+    sources: dict[str, SourceFile],
+    paths: Sequence[Path],
+    format: CertificateFormat,
+) -> NoReturn:
+    """Print the results of all runs and their diagnostics, and exit."""
+    from shotc.cli.rehearsed import text
+    from shotc.simulation.deviation_faults import deviations
+    from shotc.simulation.document import json_text
+    from shotc.simulation.rehearsal_faults import not_kept
+
+    diagnostics = (*not_kept(done), *deviations(done), *of_files)
+    console.report(diagnostics, sources)
+    console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
+    raise typer.Exit(console.exit_code(diagnostics))

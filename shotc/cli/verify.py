@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -101,14 +101,22 @@ def verify(
     """
     mission = None if against is None else MissionFile(*read_mission(against))
     every = None if abort_every is None else _seconds(abort_every)
-    if every is not None and any(is_flight(file.name) for file in files):
+    flights = any(is_flight(file.name) for file in files)
+    if every is not None and flights:
         raise typer.BadParameter("collective returns are of plans", param_hint="--abort-every")
-    if any(is_flight(file.name) for file in files):
+    if flights:
         _verify_flights(files, mission, drone or (), format)
     if len(files) > 1 or drone:
         endings = ", ".join(SUFFIXES)
         raise typer.BadParameter(f"several files, or --drone, are for flights ({endings})", param_hint="FILE")
-    report = prove(files[0], mission)
+    _verify_plan(files[0], mission, every, format)
+
+
+def _verify_plan(
+    file: Path, mission: MissionFile | None, every: float | None, format: CertificateFormat
+) -> NoReturn:
+    """Prove a plan, and returns ``every`` so many seconds where that is given; print the report, and exit."""
+    report = prove(file, mission)
     returns: Sequence[Return] | None = None
     if every is not None and report.plan is not None:
         returns, report = _returns(report.plan, report, every)
@@ -139,7 +147,7 @@ def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequen
     if not plan.trajectory.fleets:
         raise typer.BadParameter("collective returns are of shows", param_hint="--abort-every")
     from shotc.collective import collective_returns
-    from shotc.collective.faults import no_return
+    from shotc.collective.missing_returns import no_return
 
     with console.Progress() as progress:
         returns = collective_returns(plan, every, progress)
@@ -149,7 +157,7 @@ def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequen
 
 def _verify_flights(
     files: Sequence[Path], mission: MissionFile | None, drones: Sequence[str], format: CertificateFormat
-) -> None:
+) -> NoReturn:
     """Prove flights, print the report, and exit."""
     other = next((file for file in files if not is_flight(file.name)), None)
     if other is not None:

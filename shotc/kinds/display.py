@@ -16,10 +16,10 @@ from shotc.kinds.effects import MOST_EFFECTS, DisplayEffectSpec
 from shotc.kinds.pictures import FilesSpec, FlightSpec, Frames, PictureSpec
 from shotc.kinds.pyro import MOST_CUES, PyroSpec, cues_of
 from shotc.kinds.sources import picture_of
-from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Position
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.model import OneOf
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.shot import NO_DRONE, ShotBase
 from shotc.spec.words import nearest
 from shotc.units import clip, describe

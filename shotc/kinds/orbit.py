@@ -8,8 +8,8 @@ from pydantic import Field, field_validator
 from shotc.ir.target import Target
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.rounds import axis_of, filmed, ring
-from shotc.spec.faults import fault
 from shotc.spec.fields import Angle, CameraAltitude, Name, PositiveLength
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
 

@@ -11,7 +11,6 @@ from shotc.ir.effects import Way
 from shotc.ir.show import Easing
 from shotc.kinds.effects import MOST_EFFECTS, FrameEffectSpec
 from shotc.spec.colors import LightColor
-from shotc.spec.faults import fault, read_each
 from shotc.spec.fields import (
     Angle,
     Duration,
@@ -25,6 +24,7 @@ from shotc.spec.fields import (
 from shotc.spec.fieldtypes import FieldType, Integer, one_line
 from shotc.spec.model import Model, OneOf
 from shotc.spec.music import MomentSpec
+from shotc.spec.pydantic_faults import fault, read_each
 from shotc.spec.quantities import Quantity
 from shotc.spec.shorthand import QuantityModel
 from shotc.units import SMALLEST, describe

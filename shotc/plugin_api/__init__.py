@@ -62,7 +62,6 @@ if TYPE_CHECKING:
         stopped_early,
         unrefined,
     )
-    from shotc.spec.faults import fault
     from shotc.spec.fields import (
         Angle,
         CameraAltitude,
@@ -95,6 +94,7 @@ if TYPE_CHECKING:
         Velocity,
     )
     from shotc.spec.model import Model, OneOf
+    from shotc.spec.pydantic_faults import fault
     from shotc.spec.quantities import Quantity
     from shotc.spec.shot import AIM, ShotBase
 
@@ -185,7 +185,7 @@ _HOMES = {
     "bearing": "shotc.kinds.rounds",
     "evenly": "shotc.kinds.moving",
     "fallback": "shotc.passes.solver_reports",
-    "fault": "shotc.spec.faults",
+    "fault": "shotc.spec.pydantic_faults",
     "filmed": "shotc.kinds.rounds",
     "impossible": "shotc.passes.solver_reports",
     "line": "shotc.kinds.rounds",

@@ -6,8 +6,8 @@ from typing import Annotated, Any
 from pydantic.json_schema import JsonSchemaValue
 
 from shotc.ir.effects import Color
-from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, NamedOr
+from shotc.spec.pydantic_faults import fault
 from shotc.units import clip, describe
 
 COLORS: dict[str, Color] = {

@@ -5,8 +5,8 @@ from typing import Annotated, Any
 
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType
+from shotc.spec.pydantic_faults import fault
 from shotc.units import describe
 
 MOST_DRONES = 20_000

@@ -10,7 +10,6 @@ from pydantic_core import InitErrorDetails
 from shotc.geom.focal import FULL_FRAME_M, field_of_view
 from shotc.ir.drone import LensRange
 from shotc.spec.exposure import ApertureType, Millimetres, ShutterType
-from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
     AngleRange,
@@ -32,6 +31,7 @@ from shotc.spec.fieldtypes import FieldType, Hinted, Integer, NamedOr
 from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE_SHARE, ZOOM_RATE_RAD_S
+from shotc.spec.pydantic_faults import fault, fault_at, together
 from shotc.spec.quantities import Percentage, Quantity, Tuple, WattHours
 from shotc.units import SMALLEST
 

@@ -8,9 +8,9 @@ from typing import Any
 from pydantic.json_schema import JsonSchemaValue
 
 from shotc.ir.photos import Photos
-from shotc.spec.faults import fault, unit_fault
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.places import NAME
+from shotc.spec.pydantic_faults import fault, unit_fault
 from shotc.spec.quantities import Quantity
 from shotc.units import NUMBER, QuantityError, clip, describe, parse_quantity
 

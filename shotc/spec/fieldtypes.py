@@ -14,7 +14,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from shotc.spec.faults import fault
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.words import nearest
 from shotc.units import a, clip, describe
 

@@ -7,9 +7,9 @@ from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
 from shotc.ir.ground import Above
-from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.model import Model
+from shotc.spec.pydantic_faults import fault, read_each
 from shotc.spec.quantities import Quantity, QuantitySpan, Range
 
 _LENGTH = Quantity("Length", "length")

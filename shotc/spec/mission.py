@@ -6,11 +6,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainValidator, ValidationInfo
 
 from shotc.spec.drones import DroneSpec
-from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Title
 from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
 from shotc.spec.music import MusicSpec
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.rehearse import RehearseSpec
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase

@@ -13,7 +13,7 @@ from pydantic.functional_validators import ModelWrapValidatorHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError
 
-from shotc.spec.faults import details_of, fault, together
+from shotc.spec.pydantic_faults import details_of, fault, together
 from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 

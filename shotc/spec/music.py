@@ -5,10 +5,10 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.spec.faults import fault
 from shotc.spec.fields import NonNegativeDuration, RelativePath
 from shotc.spec.fieldtypes import FieldType, Integer
 from shotc.spec.model import Model, OneOf
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.quantities import Quantity
 from shotc.spec.shorthand import QuantityModel
 from shotc.units import clip, describe

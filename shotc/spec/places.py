@@ -8,10 +8,10 @@ from pydantic_core import PydanticCustomError
 
 from shotc.ir.limits import Vec2, Vec3
 from shotc.spec.degrees import instead_of
-from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, Text
 from shotc.spec.heights import HEIGHT, STANDING, AboveGround
 from shotc.spec.model import Model
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import describe
 

@@ -9,8 +9,8 @@ from typing import Any
 
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.spec.faults import fault, read_each, unit_fault
 from shotc.spec.fieldtypes import FieldType
+from shotc.spec.pydantic_faults import fault, read_each, unit_fault
 from shotc.units import (
     ANGULAR,
     LARGEST,

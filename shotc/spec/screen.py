@@ -12,8 +12,8 @@ from pydantic.json_schema import JsonSchemaValue
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, DrawnBox
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
-from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType, NamedOr
+from shotc.spec.pydantic_faults import fault, read_each
 from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import clip, describe
 

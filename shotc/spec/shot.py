@@ -13,7 +13,6 @@ from pydantic_core import CoreSchema
 from shotc.ir.photos import Photos
 from shotc.spec.allow import Allowed
 from shotc.spec.exposure import FocusType, IntervalType
-from shotc.spec.faults import fault, fault_at
 from shotc.spec.fields import (
     BoxOnScreen,
     CompositionSet,
@@ -35,6 +34,7 @@ from shotc.spec.fields import (
 )
 from shotc.spec.fieldtypes import Hinted
 from shotc.spec.model import Model, OneOf, section
+from shotc.spec.pydantic_faults import fault, fault_at
 from shotc.spec.quantities import Quantity
 from shotc.units import SMALLEST, clip, describe
 

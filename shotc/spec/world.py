@@ -4,7 +4,6 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from shotc.spec.faults import fault
 from shotc.spec.fields import (
     Angle,
     BodySize,
@@ -26,6 +25,7 @@ from shotc.spec.fieldtypes import Integer
 from shotc.spec.heights import Lift
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.places import Altitude, Latitude, Longitude
+from shotc.spec.pydantic_faults import fault
 from shotc.spec.rehearse import WindSpec
 from shotc.units import clip
 

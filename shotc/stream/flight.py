@@ -8,7 +8,7 @@ from math import ceil
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.stream import faults
+from shotc.stream import flight_faults
 from shotc.stream.aim import LiveAim
 from shotc.stream.beginning import clock_time
 from shotc.stream.clock import PERIOD_S, RATE_HZ, Clock
@@ -108,7 +108,7 @@ class StreamedFlight:
             self._clock.wait_until(tick_time)
             behind = self._clock.now() - tick_time
             if behind > STALL_S:
-                return [*diagnostics, faults.stalled(behind, STALL_S)]
+                return [*diagnostics, flight_faults.stalled(behind, STALL_S)]
             if self._tick == 0:
                 self._say("mission time 0")
             self._send()
@@ -176,7 +176,7 @@ class StreamedFlight:
         for feed in self._feeds:
             silent = feed.position(now) is None
             if silent and feed.target not in self._stale:
-                diagnostics.append(faults.stale(feed.target, now - (feed.seen or 0.0)))
+                diagnostics.append(flight_faults.stale(feed.target, now - (feed.seen or 0.0)))
                 self._stale.add(feed.target)
             elif not silent:
                 self._stale.discard(feed.target)
@@ -194,7 +194,7 @@ class StreamedFlight:
             self._keep_up(now)
             running = [pilot for pilot in pilots if not pilot.stopped(self._tick)]
             if not running or now - start > HOLD_S:
-                return list(requests.items()), [faults.not_holding(p.vehicle, HOLD_S) for p in running]
+                return list(requests.items()), [flight_faults.not_holding(p.vehicle, HOLD_S) for p in running]
             if now >= again:
                 again = now + HOLD_AGAIN_S
                 for pilot in running:

@@ -13,7 +13,7 @@ from math import dist
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.stream import faults
+from shotc.stream import flight_faults
 from shotc.stream.autopilots import Mode
 from shotc.stream.clock import PERIOD_S, RATE_HZ
 from shotc.stream.messages import ACCEPTED, IN_PROGRESS, REJECTED_FOR_NOW
@@ -128,11 +128,11 @@ class Pilot:
         if self.stage is PilotStage.LANDED or tick < self.begins:
             return
         if self.stage is not PilotStage.PARKED and now - self.vehicle.seen > SILENT_S:
-            yield faults.vanished(self.vehicle, now - self.vehicle.seen)
+            yield flight_faults.vanished(self.vehicle, now - self.vehicle.seen)
             return
         if self.stage in FOLLOWING and self.vehicle.mode != self.vehicle.autopilot.flown.custom:
             self.taken = True
-            yield faults.mode_left(self.vehicle)
+            yield flight_faults.mode_left(self.vehicle)
             return
         match self.stage:
             case PilotStage.PARKED:
@@ -194,7 +194,7 @@ class Pilot:
             return
         away = self._away(tick)
         if away > PAD_OFF_M:
-            yield faults.strayed(self.vehicle, away, PAD_OFF_M)
+            yield flight_faults.strayed(self.vehicle, away, PAD_OFF_M)
             return
         yield from self._late_or_refused(tick, ARM_DISARM, "to arm")
         if self._again(tick) and self.vehicle.answers.get(ARM_DISARM) != ACCEPTED:
@@ -212,7 +212,7 @@ class Pilot:
         away = self._away(tick)
         self.farthest = max(self.farthest, away)
         if away > STRAY_M:
-            yield faults.strayed(self.vehicle, away, STRAY_M)
+            yield flight_faults.strayed(self.vehicle, away, STRAY_M)
             return
         yield from self._record(tick)
         if tick >= self.course.last:
@@ -224,7 +224,7 @@ class Pilot:
             self._go(PilotStage.LANDED, tick)
             return
         if (tick - self._landing_since) * PERIOD_S > LANDING_S:
-            yield faults.not_landed(self.vehicle, LANDING_S)
+            yield flight_faults.not_landed(self.vehicle, LANDING_S)
             self._go(PilotStage.LANDED, tick)
         elif self._again(tick) and self.vehicle.mode != self.vehicle.autopilot.land.custom:
             self.vehicle.link.set_mode(self.vehicle.autopilot.land)
@@ -244,19 +244,19 @@ class Pilot:
         if (tick - cut.tick) % AGAIN_TICKS == 0:
             self._told += 1
             if self._told > 3:
-                yield faults.not_recorded(self.vehicle, cut.shot, on=cut.on)
+                yield flight_faults.not_recorded(self.vehicle, cut.shot, on=cut.on)
             else:
                 self.vehicle.link.record(on=cut.on, component=self.vehicle.camera)
 
     def _late_or_refused(self, tick: int, command: int, what: str) -> Iterator[Diagnostic]:
         result = self.vehicle.answers.get(command)
         if result is not None and result not in (ACCEPTED, REJECTED_FOR_NOW, IN_PROGRESS):
-            yield faults.refused(self.vehicle, what, result)
+            yield flight_faults.refused(self.vehicle, what, result)
         elif tick >= max(self.course.lifts, self.course.first):
             if result == REJECTED_FOR_NOW:
-                yield faults.refused(self.vehicle, what, result)
+                yield flight_faults.refused(self.vehicle, what, result)
             else:
-                yield faults.late(self.vehicle, what)
+                yield flight_faults.late(self.vehicle, what)
 
     def _again(self, tick: int) -> bool:
         is_time = tick - self._asked >= AGAIN_TICKS

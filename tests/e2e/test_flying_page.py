@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from shotc.simulation.faults import not_kept
 from shotc.simulation.rehearsal import RehearsalOptions, conditions_of, rehearse
+from shotc.simulation.rehearsal_faults import not_kept
 from shotc.simulation.runs import simulated
 from tests.support.compiled import compiled_text
 

@@ -13,8 +13,8 @@ from scipy.spatial.distance import pdist
 
 from shotc.collective import Return, collective_returns
 from shotc.collective.braking import FlightSpline
-from shotc.collective.faults import no_return
 from shotc.collective.homing import Homing
+from shotc.collective.missing_returns import no_return
 from shotc.geom.apart import stretch
 from shotc.geom.fleet_spline import places, rest_of
 from shotc.ir.limits import Limits
