@@ -67,7 +67,7 @@ class BlindHold:
             self._braking = None
         if self._back is None:
             return asked
-        if (time >= self._back.start + self._back.lasts).all():
+        if (time >= self._back.start + self._back.durations).all():
             self._back = None
             return asked
         parts = (asked.position, asked.velocity, asked.acceleration)
