@@ -41,7 +41,7 @@ def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
     for path in paths:
         console.out(str(path))
     if not emitted.artifacts and not names:
-        console.note("nothing is written: no output was asked for; name some with --emit")
+        console.note("nothing is written: no output is selected; name some with --emit")
     for text in emitted.notes:
         console.note(text)
     raise typer.Exit(console.exit_code(diagnostics))

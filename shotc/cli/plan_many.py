@@ -110,7 +110,7 @@ def _lines(batch: _Batch, gathered: Gathered) -> Iterator[str]:
     good = sum(not outcome.errors for outcome in outcomes)
     text = f"planned {good} of {len(outcomes)} missions"
     if batch.before:
-        text += f"; {batch.before} of them before this run was stopped, whose warnings were told then"
+        text += f"; {batch.before} of them before this run was stopped, whose warnings were printed then"
     yield text + gathered.passed_over()
 
 

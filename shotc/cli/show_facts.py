@@ -28,11 +28,11 @@ def recorded(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
             )
             clock = f"{longer:.2f} s longer" if longer > 0.0 else "at its own times"
             fleet = f"fleet {known[f'flight {flight[1]} fleet']}"
-            mended, moved = (float(known[f"{fleet} {key} shift"]) for key in ("bound", "apart"))
+            corrected, moved = (float(known[f"{fleet} {key} shift"]) for key in ("bound", "apart"))
             apart = f"; {known[f'{fleet} apart moved']:.0f} are moved so that all stay apart" if moved else ""
             yield (
                 f"{flight[1]} flies its file from {start:.2f} s to {end:.2f} s, {clock}, "
-                f"within {at_least(off + mended + moved, 3)} m of every track{apart}"
+                f"within {at_least(off + corrected + moved, 3)} m of every track{apart}"
             )
 
 

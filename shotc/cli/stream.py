@@ -185,7 +185,7 @@ def _end(flown: FlightResult, pilot: Pilot) -> str:
         return "landed"
     mode = dict(flown.holding).get(pilot.name)
     if mode is not None:
-        return f"in the air, {mode} was asked for: take it over{left_alone(pilot.vehicle)}"
+        return f"in the air, {mode} was requested: take it over{left_alone(pilot.vehicle)}"
     return "taken over" if pilot.taken else "not in the air"
 
 

@@ -146,7 +146,7 @@ def unkept(keyframes: KeyframeIR, each: Aligned, claims: Sequence[FileClaim]) ->
         if shot.drone != each.track.drone or shot.promise == Promise():
             continue
         if shot.id in each.missing:
-            why = "nothing tells when it is filmed; write its `timing`, or a column `shot`"
+            why = "the file does not give its time; write its `timing`, or a column `shot`"
             yield f"what shot `{shot.id}` promises: {why}"
             continue
         lacking = [

@@ -71,7 +71,7 @@ def _broken(mission: MissionIR, broken: FileClaim, certificate: tuple[Claim, ...
     else:
         lack = measure(abs(claim.worst - claim.limit), claim.unit)
         message = f"{_who(claim)}: {state_of(claim, code)}"
-        help_ = HELPS.get(code, "mend the file, or the mission").format(lack=lack)
+        help_ = HELPS.get(code, "correct the file, or the mission").format(lack=lack)
     return Diagnostic(code, message, tuple(labels), tuple(_notes(claim, broken)), help_)
 
 
@@ -137,7 +137,7 @@ def unjudged(mission: MissionIR, courses: Sequence[UntimedFlight], swarms: Seque
     if moving:
         words.append(f"the distance from what moves ({', '.join(moving)})")
     if courses:
-        why = "files of waypoints have no clock, so nothing tells when a drone is where"
+        why = "files of waypoints have no clock, so the times of its positions are unknown"
         yield f"not judged: {'; '.join(words)}: {why}"
     if swarms:
         yield "not judged: which picture a fleet shows when; files of flights do not name pictures"

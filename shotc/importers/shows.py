@@ -160,7 +160,7 @@ def _written(
     pads, separation = ground
     lines = [
         "# A recorded show, by `shotc import show`. `shotc plan` brings it within the limits of its drones",
-        "# and proves it; where it is too fast, all drones take more time, and that is told.",
+        "# and proves it; where it is too fast, all drones take more time, and a warning says so.",
         *(f"# {note.comment}" for note in notes.assumptions),
         "shotc: 1",
         f"mission: {stem}",

@@ -137,7 +137,7 @@ class Scene(NamedTuple):
         if name not in self.targets:
             return unknown_target(self.origins, where, name, self.targets)
         return self.targets[name] or Deferred(
-            "a target that cannot be used", where, "mend what is wrong with it"
+            "a target that cannot be used", where, "correct what is wrong with it"
         )
 
     def stand(

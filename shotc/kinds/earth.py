@@ -44,7 +44,7 @@ def _remedy(origin: tuple[float, float], place: tuple[float, float]) -> str:
         return f"the {near[0]} looks as if it had the wrong sign (west and south are negative); write {right}"
     if abs(origin[1]) <= 90 and _away((origin[1], origin[0]), place) <= FARTHEST_M:
         return "latitude and longitude of `world.origin` look swapped"
-    return "mend the place, or move `world.origin` to where the mission is flown"
+    return "correct the place, or move `world.origin` to where the mission is flown"
 
 
 def _away(origin: tuple[float, float], place: tuple[float, float]) -> float:

@@ -16,7 +16,7 @@ from shotc.ir.path import ClockLeg, HoldLeg, Leg, PathIR, PathLeg, filmed
 
 UNREFINED = "R014"
 EVERYTHING = "all constraints"
-NO_NUMBERS = "the solver left no numbers by which a place or a constraint could be told"
+NO_NUMBERS = "the solver left no numbers that identify a place or a constraint"
 NOTHING_BROKEN = (
     "where it stopped no constraint is broken; it had not settled, so nothing there can be loosened"
 )

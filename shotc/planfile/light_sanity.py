@@ -46,7 +46,7 @@ def _paint(paint: Tint | Gradient | Band | Glints, path: str) -> Iterator[Fault]
     if isinstance(paint, Gradient) and (
         not paint.at or len(paint.at) != len(paint.colors) or any(b < a for a, b in pairwise(paint.at))
     ):
-        yield f"{path}.at", "does not rise, or has not a place for every colour"
+        yield f"{path}.at", "does not rise, or does not have a place for every colour"
     if isinstance(paint, Glints) and paint.period <= 0:
         yield f"{path}.period", f"{paint.period:g} is not positive"
     if isinstance(paint, Glints) and not 0 <= paint.seed < 2**32:

@@ -257,6 +257,6 @@ def _placed(value: Any, mission: MissionIR, decoder: Decoder) -> tuple[PlacedSho
         elif len(fields) == len(kinds):
             decoder.fault(
                 f"keyframes[{i}]",
-                "names no shot of the mission, or has not as many keyframes as that",
+                "names no shot of the mission, or does not have as many keyframes as that",
             )
     return tuple(placed_shots)

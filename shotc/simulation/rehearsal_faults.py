@@ -174,6 +174,6 @@ def _untrue(mission: MissionIR, name: str, track: Track, end: float) -> Iterator
                 "W004",
                 f"the true track of `{name}` jumps {dist(a, b):.1f} m in {duration:.3g} s at {start:g} s",
                 (label,),
-                help=f"nothing that is filmed moves faster than {TOP_SPEED_M_S:g} m/s: mend the rows there",
+                help=f"nothing that is filmed moves faster than {TOP_SPEED_M_S:g} m/s: correct these rows",
             )
             return

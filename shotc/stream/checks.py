@@ -157,7 +157,7 @@ def _silent(ready: Ready, silent: Sequence[str]) -> Diagnostic:
     fix = "wait until it has a position by satellites" if place & set(silent) else "check its radio link"
     return Diagnostic(
         "A006",
-        f"the vehicle of `{ready.drone.name}` does not tell what has to be known before a flight",
+        f"the vehicle of `{ready.drone.name}` does not report what has to be known before a flight",
         (ready.label(),),
         (f"no answer within {READ_S:.0f} s: {', '.join(silent)}", *_status_texts(ready.vehicle)),
         f"{fix}, then run this again",
@@ -182,7 +182,7 @@ def _state(ready: Ready) -> Iterator[Diagnostic]:
             f"the vehicle of `{name}` is not ready: it is {state}",
             (ready.label(),),
             _status_texts(vehicle),
-            "wait until it stands by, or mend what it complains of",
+            "wait until it stands by, or correct what it reports",
         )
 
 

@@ -24,7 +24,7 @@ def refused(vehicle: VehicleStatus, what: str, result: int) -> Diagnostic:
         "A020",
         f"the vehicle of `{vehicle.drone}` refuses {what}",
         notes=(f"it answers: {RESULTS.get(result, f'MAV_RESULT {result}')}", *_status_texts(vehicle)),
-        help="mend what keeps it from that: a ground station shows its checks before arming",
+        help="remove what keeps it from that: a ground station shows its checks before arming",
     )
 
 

@@ -101,7 +101,7 @@ def test_interrupted_it_ends_as_interrupted_and_says_who_is_in_the_air(run: Run,
     world.clock.events.append((world.clock.time + 22.0, stop))
     done = run("stream", "plan.json", *to, "--arm")
     assert done.code == 130
-    assert "in the air, HOLD was asked for: take it over; left alone it will return (NAV_DLL_ACT)" in done.out
+    assert "in the air, HOLD was requested: take it over; left alone it will return (NAV_DLL_ACT)" in done.out
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="the system has no such signal")

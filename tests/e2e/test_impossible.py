@@ -306,7 +306,7 @@ def test_it_is_refused_with_line_and_numbers_and_its_help_helps(
     read(case, first)
     assert not re.search(r"infeasible|illegal|Traceback|nan|\binf\b", result.err)
     for fix in case.fixes:
-        result = mended(planned, case, fix(case.mission, first), fix)
+        result = corrected(planned, case, fix(case.mission, first), fix)
         assert result.code == 0, result.err
         assert {path.name for path in Path("out").iterdir()} == {"plan.json", "trajectory.csv", "framing.csv"}
 
@@ -326,8 +326,8 @@ def found(lines: list[str], text: str) -> int:
     return line
 
 
-def mended(planned: Callable[[str], Result], case: Case, mission: str, fix: Fix) -> Result:
-    """Plan a mended mission; where several keyframes had the fault, mend one after the other."""
+def corrected(planned: Callable[[str], Result], case: Case, mission: str, fix: Fix) -> Result:
+    """Plan a corrected mission; where several keyframes had the fault, correct one after the other."""
     result = planned(mission)
     for _ in range(2):
         if result.code == 0 or result.errors[0].code != case.code:

@@ -1,4 +1,4 @@
-"""Every help line is true: each remedy of each failing example, written into it, mends it.
+"""Every help line is true: each remedy of each failing example, written into it, corrects it.
 
 The fault must be gone and no error may come in its place. What stands in ``TOLD_IN_WORDS`` names no edit that
 a rule could apply; the list may only get shorter.

@@ -45,7 +45,7 @@ UNKNOWN: tuple[CodeInfo, ...] = (
         "unknown-group",
         "a display is of a group that its fleet does not have",
         "`group` of a display refers to a key under `groups` of its fleet. Its pictures, its effects and its pyro cues are all of "
-        "that group, so nothing is judged of them. The nearest known name is proposed. Mend the name, or give the fleet the group.",
+        "that group, so nothing is judged of them. The nearest known name is proposed. Correct the name, or give the fleet the group.",
         _GROUPED,
         ("group: fireworks", "group: firework"),
     ),

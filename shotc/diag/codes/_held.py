@@ -82,8 +82,8 @@ HELD: tuple[CodeInfo, ...] = (
         "camera-off-its-keyframes",
         (
             "the camera looks elsewhere at a keyframe than the mission asks",
-            "At a keyframe the lens is the one that is asked for, a camera that frames nothing looks where it is told "
-            "to, and one that goes round goes round as often as it should. Where a target is on screen is told apart (V030, "
+            "At a keyframe the lens is the one that is asked for, a camera that frames nothing has its written "
+            "angles, and one that goes round goes round as often as it should. The place of a target on screen has codes of its own (V030, "
             "V032), and held where the shot says `require`. Plan the mission again.",
         ),
     ),

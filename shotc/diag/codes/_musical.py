@@ -28,7 +28,7 @@ _LISTED = (
 
 _IN_FILES = (
     ("D126", "song-not-read", "the length of a song is not known",
-     "The length of a song is read from its file, so that a show which outlasts it is told. A file that "
+     "The length of a song is read from its file, so that a warning names a show that outlasts it. A file that "
      "does not read as music is carried as it is; it is not known whether players play it."),
     ("D127", "song-too-short", "a song ends before the show does",
      "The last picture stands, or the way to it is flown, after the song has ended. `music: {start: ...}` is when the song "

@@ -98,7 +98,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         _ERROR,
         "a building's outline crosses itself or encloses nothing, or its top is not above its bottom",
         "A footprint is a ring of three or more corners whose sides meet nowhere else. `min_height` is below `height`. "
-        "The notes name the buildings. Mend them in the file; most editors of maps have a check for it.",
+        "The notes name the buildings. Correct them in the file; most editors of maps have a check for it.",
     ),
     _of_a_file(
         "G035",

@@ -170,7 +170,7 @@ _MACHINE_CODES = (
         "target-drifts",
         Severity.WARNING,
         "a file without a clock films a target that moves",
-        "Such a machine starts when it is told to, and is sooner or later at each place than the plan, as it speeds up and "
+        "Such a machine starts on command, and is sooner or later at each place than the plan, as it speeds up and "
         "brakes by rules of its own. The message says how far the target goes meanwhile. Start by eye and frame "
         "loosely, or fly the plan with `shotc stream` on a machine that takes it.",
         _MOVING.replace("x500", "mini").replace("[mavlink]", "[dji]"),

@@ -138,7 +138,7 @@ CODES: tuple[CodeInfo, ...] = (
         "would take a pitch beyond the gimbal's range, or a roll, the camera stops at its limit and the "
         "target leaves its place. Pass at a greater distance, nearer to the target's height, or widen "
         "`gimbal.pitch`. A refiner such as `ours` leads the path aside as far as it can, and verification says "
-        "what is left of it (V030, V032): this is told of shots that stay on the convex path, and of the failing "
+        "what is left of it (V030, V032): this is reported of shots that stay on the convex path, and of the failing "
         "mission with `--refiner none`.",
         ("{at: [5, 5, 8], look_at: lamp}", "{at: [5, 36, 8], look_at: lamp}"),
         severity=Severity.WARNING,

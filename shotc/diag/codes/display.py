@@ -106,7 +106,7 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "the number of rows of a layout file is not the number of drones",
         "Each row of a layout file is the pad of one drone, in the order of their numbers. The file is read whole, so "
-        "a row too few or too many is a slip of either number. Mend `count`, or the file.",
+        "a row too few or too many is a slip of either number. Correct `count`, or the file.",
         _PASSING.replace("{grid: {spacing: 4, origin: [0, 0, 0]}}", "{file: pads.csv}"),
         _PASSING,
         phase="other",
@@ -209,7 +209,7 @@ CODES: tuple[CodeInfo, ...] = (
         "viewpoint-inside",
         "the audience of a display is in the middle of a picture",
         "A picture is arranged for those who look at it from the `viewpoint`. From inside a shape there is no such "
-        "picture. Spheres, cubes, rings and letters are judged here, meshes by `plan`. Mend the viewpoint, or leave "
+        "picture. Spheres, cubes, rings and letters are judged here, meshes by `plan`. Correct the viewpoint, or leave "
         "it out to draw the volume for all around.",
         _PASSING,
         ("viewpoint: [0, -100, 2]", "viewpoint: [0, -5, 30]"),
@@ -268,7 +268,7 @@ CODES: tuple[CodeInfo, ...] = (
         "a fleet does not fit into a picture",
         "In a picture the drones stand at least their separation apart. Balls of that size fill no more than 78 % of the room that "
         "they are given (Rogers, 1958), which bounds how many a shape can hold; on a surface, the densest covering "
-        "does. Drones for which there is no room stay dark, which `plan` tells (D062); here more than 95 % would. "
+        "does. Drones for which there is no room stay dark, which `plan` reports (D062); here more than 95 % would. "
         "Make the shape larger, take fewer drones, or a smaller separation.",
         _PASSING,
         ("radius: 15", "radius: 10 cm"),

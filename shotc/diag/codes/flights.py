@@ -121,7 +121,7 @@ CODES: tuple[CodeInfo, ...] = (
         "D085",
         "stands-too-near",
         "two drones of a fleet stand too near to each other",
-        "Where a fleet stands, in a picture or on its pads, nothing can be mended by flying otherwise: the places "
+        "Where a fleet stands, in a picture or on its pads, nothing can be corrected by flying otherwise: the places "
         "themselves are nearer than the separation with its margin. The message says how much larger they have to "
         "be.",
     ),

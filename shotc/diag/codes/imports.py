@@ -48,7 +48,7 @@ CODES: tuple[CodeInfo, ...] = (
         5,
         "import-ambiguous",
         "something in an imported file would have to be assumed, which --strict forbids",
-        "With `--strict` nothing is assumed: whatever is missing, wrong or ambiguous in the file is an error. Mend the "
+        "With `--strict` nothing is assumed: whatever is missing, wrong or ambiguous in the file is an error. Correct the "
         "file, or import it without `--strict` and look at the comments in the mission.",
     ),
     _code(
@@ -56,7 +56,7 @@ CODES: tuple[CodeInfo, ...] = (
         "import-impossible",
         "an imported file asks for what cannot be flown",
         "What an importer writes is a mission that `shotc check` accepts. Where check finds errors that no assumption "
-        "can mend, nothing is written; the errors are those of the mission that was made.",
+        "can correct, nothing is written; the errors are those of the mission that was made.",
     ),
     _code(
         7,
@@ -88,7 +88,7 @@ CODES: tuple[CodeInfo, ...] = (
         "flight-broken",
         "an element of a flight is broken, or moves the machine in a way that is not known",
         "Where a waypoint has no place, a number is none, or an item is a jump or a circle, nobody can say where the "
-        "machine goes, and nothing is assumed. The label is on the element. Mend it, or fly that part by another file.",
+        "machine goes, and nothing is assumed. The label is on the element. Correct it, or fly that part by another file.",
     ),
     _code(
         11,

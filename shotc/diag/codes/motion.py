@@ -148,7 +148,7 @@ CODES: tuple[CodeInfo, ...] = (
         "the drone's speed over seconds, no plan can keep it. The help names what of the shot would "
         "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
         "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast. A shot without a `start` is judged "
-        "by when what it comes after ends; where that is not known `plan` tells it.",
+        "by when what it comes after ends; where that is not known `plan` reports it.",
         ("times: [0, 40]", "times: [11, 17]"),
         ("{start: 15, duration: 10}", "{start: 11, duration: 6}"),
     ),
@@ -279,7 +279,7 @@ CODES: tuple[CodeInfo, ...] = (
         "a target would have to move faster than it can",
         "Two rows of a track lie so far apart, or its speed is such, that the target would be faster than its "
         "`top_speed`; 70 m/s where the mission gives none. In a recording this is a row with a wrong number, or "
-        "a receiver that lost its place. The note names both rows and their lines. Mend the row, or give the "
+        "a receiver that lost its place. The note names both rows and their lines. Correct the row, or give the "
         "target the `top_speed` that it has.",
         ("times: [0, 40]", "times: [0, 0.5]"),
     ),

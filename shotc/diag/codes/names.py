@@ -40,7 +40,7 @@ CODES: tuple[CodeInfo, ...] = (
         "unknown-target",
         "a target is named that the mission does not define",
         "A shot's `target`, a `look_at` by name and the subjects of a framing refer to the keys under "
-        "`targets`. The nearest known name is proposed. Mend the name, or define the target.",
+        "`targets`. The nearest known name is proposed. Correct the name, or define the target.",
         _PASSING,
         ("look_at: tower}", "look_at: towr}"),
     ),
@@ -49,7 +49,7 @@ CODES: tuple[CodeInfo, ...] = (
         "unknown-drone",
         "a drone is named that the mission does not define",
         "A shot's `drone` refers to a key under `drones`, or is `auto`. What the shot asks of its drone is "
-        "not judged until the drone is known. Mend the name, or define the drone.",
+        "not judged until the drone is known. Correct the name, or define the drone.",
         _PASSING,
         ("id: wide, kind: static, drone: cam1", "id: wide, kind: static, drone: cam"),
     ),
@@ -57,7 +57,7 @@ CODES: tuple[CodeInfo, ...] = (
         "N003",
         "unknown-fleet",
         "a fleet is named that the mission does not define",
-        "A display's `fleet` refers to a key under `fleets`. Mend the name, or define the fleet.",
+        "A display's `fleet` refers to a key under `fleets`. Correct the name, or define the fleet.",
         _PASSING,
         ("fleet: swarm", "fleet: swam"),
     ),
@@ -65,7 +65,7 @@ CODES: tuple[CodeInfo, ...] = (
         "N004",
         "unknown-shot",
         "a shot waits for one that does not exist",
-        "`after` in a shot's timing names the id of another shot that has to end first. Mend the name, or "
+        "`after` in a shot's timing names the id of another shot that has to end first. Correct the name, or "
         "drop `after`: the shots of one drone run in the order in which they are written anyway.",
         _PASSING,
         ("after: wide", "after: wider"),
@@ -75,7 +75,7 @@ CODES: tuple[CodeInfo, ...] = (
         "unknown-emitter",
         "an output is asked for that no installed emitter makes",
         "`output.emit` names emitters; `shotc list emitters` shows those that are installed, with those of "
-        "plugins. Mend the name, or install the plugin that brings it.",
+        "plugins. Correct the name, or install the plugin that brings it.",
         _PASSING,
         ("emit: [csv]", "emit: [cvs]"),
     ),
@@ -102,7 +102,7 @@ CODES: tuple[CodeInfo, ...] = (
         "missing-file",
         "a file that the mission names cannot be read",
         "Tracks and routes may stand in files of their own. Their paths count from the folder of the "
-        "mission, with `/` between folders. Files of the same sort that lie there are proposed. Mend the "
+        "mission, with `/` between folders. Files of the same sort that lie there are proposed. Correct the "
         "path, or put the file there.",
         _BY_FILE,
         ("points: [[0, -50, 15], [40, -50, 15]]", "file: no-such-route.csv"),

@@ -79,7 +79,7 @@ CODES: tuple[CodeInfo, ...] = (
         "P007",
         "no-refiner",
         Severity.WARNING,
-        "planned without a refiner, since none was asked for and ours is not installed",
+        "planned without a refiner, since none is named and ours is not installed",
         "Without `--refiner` a mission is planned by the refiner `ours`, which keeps the composition "
         "between keyframes and comes with the package shotc-casadi. It is not installed here, so the "
         "convex path is flown as it is: proved like any other, but without a trade-off between framing and "

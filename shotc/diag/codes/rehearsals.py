@@ -13,7 +13,7 @@ CODES: tuple[CodeInfo, ...] = (
         "too few runs of a rehearsal keep what the mission asks of them",
         "`shotc simulate` flies a plan many times: drones lag behind it, wind and gusts push them, receivers and "
         "cameras err, subjects leave their track. What stands under `rehearse: {require: ...}` has to hold in the "
-        "share of the runs that `of` says, in all of them if it is silent. It judges rehearsals alone: `plan` and "
+        "share of the runs that `of` gives, and in all of them without it. It judges rehearsals alone: `plan` and "
         "`verify` prove the plan and do not read it. The help says what as many runs do keep.",
         "",
         "",
@@ -129,7 +129,7 @@ CODES: tuple[CodeInfo, ...] = (
         "from one. A drone goes on by its inertial sensors, whose error grows: 0.8 m on each axis after 5 s (one "
         "standard deviation). After 2 s it brakes and holds, as well as it knows its place; a drone that lands over "
         "its pad goes on landing. When positions are back it returns to its plan, straight and without a look at "
-        "what is in between: the nearest things of each run tell whether there is room. Real autopilots differ: some "
+        "what is in between: the nearest things of each run show whether there is room. Real autopilots differ: some "
         "land where they are.",
         "",
         "",

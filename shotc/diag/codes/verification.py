@@ -213,7 +213,7 @@ _SPACE = (
             "`rules.separation` is kept centre to centre at every instant, also by a drone that has landed and "
             "stands at its home. Give one of the shots another start, or move the homes apart. The drones of a "
             "fleet keep its own `separation`, with its margin: an ellipsoid or a cylinder whose height counts as "
-            "much as its width, so that one horizontal distance tells how near two drones come. Two fleets keep "
+            "much as its width, so that one horizontal distance says how near two drones come. Two fleets keep "
             "the larger of both. Give pictures more room or transitions more time.",
         ),
         (_MET.replace("EAST", "1"), _MET.replace("EAST", "12")),

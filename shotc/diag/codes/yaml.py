@@ -111,7 +111,7 @@ CODES: tuple[CodeInfo, ...] = (
         (
             "the text is not YAML here",
             "Something stands where YAML allows nothing of the kind: a stray bracket, text behind a value that has "
-            "ended, a line without a colon after its key. Reading stops at the first syntax error, so mend it and "
+            "ended, a line without a colon after its key. Reading stops at the first syntax error, so correct it and "
             "check again. Values that hold brackets, colons or quotation marks are safest in quotes.",
         ),
         _mutant("home: [0, -60, 0]}", "home: [0, -60, 0]}}"),
@@ -244,7 +244,7 @@ CODES: tuple[CodeInfo, ...] = (
         (
             "an alias names nothing above it",
             "An alias such as *home repeats the value that an anchor &home names, and the anchor has to come first. "
-            "Write the anchor, mend the name, or put the value in quotes if the * belongs to it.",
+            "Write the anchor, correct the name, or put the value in quotes if the * belongs to it.",
         ),
         _mutant("mission: look", "mission: *look"),
     ),
@@ -264,7 +264,7 @@ CODES: tuple[CodeInfo, ...] = (
         (
             "the file cannot be read",
             "The file does not exist, is a folder, or may not be read by this user. The reason that the operating "
-            "system gives is part of the message. Mend the path; paths are relative to the current folder.",
+            "system gives is part of the message. Correct the path; paths are relative to the current folder.",
         ),
         "",
         "other",

@@ -70,7 +70,7 @@ def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
             "E107",
             f"the mission file of {flight.drone} does not carry when its shots of what moves are filmed",
             tuple(mission.origins.key(shot.path) for shot in moving),
-            (f"an autopilot starts it when it is told to, and flies at mean speeds; in question: {names}",),
+            (f"an autopilot starts it on command, and flies at mean speeds; in question: {names}",),
             "fly the plan itself with `shotc stream`",
         )
     ]
@@ -85,7 +85,7 @@ def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
         (
             f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
             f" {mission.rules.separation:.1f} m",
-            "an autopilot starts its file when it is told to, and flies at mean speeds",
+            "an autopilot starts its file on command, and flies at mean speeds",
         ),
         "fly them by one clock with `shotc stream`, or give each drone air of its own by zones or heights",
     )

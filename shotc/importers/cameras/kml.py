@@ -180,7 +180,9 @@ def _view(node: Node, notes: Notes) -> KmlView | None:
     mode = mode_node.text.strip() if mode_node is not None else "clampToGround"
     if mode != "absolute" and mode not in GROUND_MODES:
         notes.assume(
-            mode_node or node, f"an altitude mode `{plain(mode, 30)}` that KML has not", "relativeToGround"
+            mode_node or node,
+            f"an altitude mode `{plain(mode, 30)}` that KML does not have",
+            "relativeToGround",
         )
     if mode.startswith("clamp"):
         if alt > 0.0 and local(node) == "Camera":

@@ -77,7 +77,7 @@ class _Player:
         elif order == LOOP_END:
             self._again(start)
         elif order != NOTHING:
-            self._refuse(f"has an order {order:#04x} at byte {start}, which has no time that the file tells")
+            self._refuse(f"has an order {order:#04x} at byte {start}, whose time the file does not give")
         return True
 
     def _again(self, start: int) -> None:

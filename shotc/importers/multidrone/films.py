@@ -83,8 +83,8 @@ def _name(
         if apart < SAME_TARGET_M and (known.identity == identity or None in (known.identity, identity)):
             if apart < SAME_POINT_M:
                 return known.name, ()
-            message = f"the way of one target is told again, and up to {at_least(apart, 1)} m beside"
-            return known.name, (notes.assume(node, message, f"{known.name}, as it was told first"),)
+            message = f"the path of one target is given again, and up to {at_least(apart, 1)} m beside"
+            return known.name, (notes.assume(node, message, f"{known.name}, as it was given first"),)
     name = f"target{len(targets) + 1}"
     other = next((t.name for t in targets if identity is not None and t.identity == identity), None)
     targets.append(_Target(name, course, identity))

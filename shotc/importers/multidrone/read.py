@@ -112,9 +112,9 @@ def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
     """Return the number in a text of an element, or None. ``name``: name of the parameter, or empty."""
     shown = f"{name} = `{text[:30]}`" if name else f"`{text[:30]}`"
     if _COMMA.fullmatch(text):
-        mended = text.replace(",", ".")
-        notes.assume(node, f"{shown} has a decimal comma", mended)
-        text = mended
+        corrected = text.replace(",", ".")
+        notes.assume(node, f"{shown} has a decimal comma", corrected)
+        text = corrected
     if _NUMBER.fullmatch(text) and abs(value := float(text)) <= LARGEST_VALUE:
         return value
     notes.assume(node, f"{shown} is no number that can be meant", "it counts as missing")
@@ -136,7 +136,7 @@ def _action(node: Node, notes: Notes) -> ShootingAction | None:
     duration = number(node.first("duration"), notes)
     if duration is None or duration < SHORTEST_S:
         duration = 20.0
-        message = "an action without a duration lasts to the next event, which the file does not tell"
+        message = "an action without a duration lasts to the next event, which the file does not give"
         notes.assume(node.first("duration") or node, message, "20 s")
     speed = number(node.first("formationSpeed"), notes)
     return ShootingAction(

@@ -133,7 +133,7 @@ def _establish(task: RoleTask) -> ImportedShot:
     if not task.course.stands:
         kept = (
             task.assume(
-                "an approach is told along the target's way", "along its way at the start of the shot"
+                "an approach is given along the target's path", "along its way at the start of the shot"
             ),
         )
     return ImportedShot("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)

@@ -61,7 +61,7 @@ def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
         node = action.node.first("duration") or action.node
         course_s = film.course.times[-1] - film.start
         message = (
-            f"the action lasts {action.duration:g} s, the way of its target is told for {course_s:.1f} s"
+            f"the action lasts {action.duration:g} s, the path of its target is given for {course_s:.1f} s"
         )
         said.append(notes.assume(node, message, "the shot ends with the way"))
         duration = round(known, 2)

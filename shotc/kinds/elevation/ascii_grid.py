@@ -62,7 +62,9 @@ def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFa
     if system is None and steps.x < LARGEST_CELL_DEG and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:
         system = WGS84_EPSG
     if system is None:
-        help_ = "give its `epsg` beside `file`, such as `epsg: 32632`; the .prj file beside it tells"
+        help_ = (
+            "give its `epsg` beside `file`, such as `epsg: 32632`; the .prj file beside it names the system"
+        )
         return TerrainFault(
             "system", "the file does not say in which system of coordinates it is", None, help_
         )

@@ -10,7 +10,7 @@ from shotc.diag.registry import registry, severity_of
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import PathIR
 from shotc.passes.refine_path.child import Failed, TooSlow, refined_within
-from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, own, tell
+from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, error_of, own
 from shotc.passes.refine_path.seat import Seat
 
 LONGER = "give it a longer `--deadline`"
@@ -34,7 +34,7 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> R
     mission = path.keyframes.mission
 
     def fault(code: str, what: str, *notes: str) -> RefinerAnswer:
-        return RefinerAnswer(None, (tell(mission, seat, RefinerFinding(code, what, notes)),))
+        return RefinerAnswer(None, (error_of(mission, seat, RefinerFinding(code, what, notes)),))
 
     try:
         if deadline is None or not seat.reference:
@@ -43,7 +43,7 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> R
             outcome = refined_within(deadline, seat.reference, path, ctx)
     except TooSlow:
         late = RefinerFinding("R004", f"was stopped after {deadline:g} s, its deadline", help=LONGER)
-        return RefinerAnswer(None, (tell(mission, seat, late),))
+        return RefinerAnswer(None, (error_of(mission, seat, late),))
     except Failed as failed:
         return fault("R001", "failed", str(failed))
     except (Exception, SystemExit) as raised:  # noqa: BLE001  a plugin may raise anything

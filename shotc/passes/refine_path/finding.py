@@ -33,7 +33,7 @@ class RefinerFault(NamedTuple):
     diagnostic: Diagnostic
 
 
-def tell(mission: MissionIR, seat: Seat, finding: RefinerFinding) -> RefinerFault:
+def error_of(mission: MissionIR, seat: Seat, finding: RefinerFinding) -> RefinerFault:
     """Return a finding as the error that the user reads."""
     path = next((shot.path for shot in mission.shots if shot.id == finding.shot), None)
     labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + finding.labels
@@ -47,7 +47,7 @@ def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> RefinerFault:
     """Return an error of the refiner itself, with the package's name added."""
     note = seat.named
     return RefinerFault(
-        shot_of(mission, diagnostic), diagnostic._replace(notes=(*diagnostic.notes, f"told by {note}"))
+        shot_of(mission, diagnostic), diagnostic._replace(notes=(*diagnostic.notes, f"reported by {note}"))
     )
 
 

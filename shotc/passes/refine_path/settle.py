@@ -27,7 +27,7 @@ from shotc.ir.path import (
 )
 from shotc.passes.refine_path.ask import RefinerAnswer
 from shotc.passes.refine_path.clocked import on_clock
-from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, tell
+from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, error_of
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.limits import limits
 from shotc.passes.refine_path.seat import Seat
@@ -60,14 +60,14 @@ def _mended(before: PathIR, seat: Seat, answer: RefinerAnswer) -> tuple[PathIR |
     """
     path, faults = answer.path, list(answer.faults)
     failed = {fault.shot for fault in faults}
-    mended: set[str | None] = set()
+    corrected: set[str | None] = set()
     while path is not None and path is not before:
         left = [fault for fault in _judged(before, seat, path) if fault.shot not in failed]
         faults += left
         failed |= {fault.shot for fault in left}
-        if None in failed or failed == mended:
+        if None in failed or failed == corrected:
             break
-        path, mended = _with_convex(before, path, failed), set(failed)
+        path, corrected = _with_convex(before, path, failed), set(failed)
     return (None if None in failed else path), faults
 
 
@@ -85,7 +85,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[RefinerFault]:
                 "R002", "returned a path that cannot be flown", (f"to read it raises {one_line(raised)}",)
             )
         ]
-    return [tell(before.keyframes.mission, seat, finding) for finding in faults]
+    return [error_of(before.keyframes.mission, seat, finding) for finding in faults]
 
 
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
@@ -154,5 +154,5 @@ def kept(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault]) -> D
         f"shot `{shot}` flies its convex path, since {seat.named} gave none that can be flown",
         (mission.origins.key((*path, "refine"), "this allows it"),),
         tuple(notes),
-        "mend what is named, or plan with `--refiner none`",
+        "correct what is named, or plan with `--refiner none`",
     )

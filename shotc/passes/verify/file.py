@@ -91,7 +91,7 @@ def against(written: KeyframeIR, lowered: KeyframeIR | None, reviewed: Lowered) 
     if reviewed.keyframes is None:
         text = "this mission cannot be lowered, so no plan can be held to it"
         fault = Diagnostic(
-            "V043", text, (Label(reviewed.file.name, WHOLE_FILE),), help="mend its faults first"
+            "V043", text, (Label(reviewed.file.name, WHOLE_FILE),), help="correct its faults first"
         )
         return [fault, *reviewed.diagnostics]
     source, now = written.mission.source, reviewed.keyframes.mission.source
@@ -142,7 +142,7 @@ def _not_lowered(read: ReadPlan, lowered: Lowered, name: str) -> tuple[Diagnosti
     if not read.trajectory.keyframes.mission.source.text:
         text = "the plan does not hold the mission that it was made from"
         return (Diagnostic("V042", text, label, _writer(read), REPLAN),)
-    text = "the mission in the plan cannot be lowered, so nothing tells what the plan is to do"
+    text = "the mission in the plan cannot be lowered, so the requirements on the plan are unknown"
     notes = ("the faults of that mission follow", *_writer(read))
     help_ = f"{REPLAN}; where a kind of shot is unknown, install the package that it comes from"
     return (Diagnostic("V042", text, label, notes, help_), *lowered.diagnostics)

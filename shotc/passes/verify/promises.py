@@ -36,8 +36,8 @@ _INSTEAD = {
 _ENDS = {"V019": " in frame", "V020": " screen error", "V021": " size ", "V028": VISIBLE, "V029": VISIBLE}
 _KEYS = {"in_frame": "V019", "screen_error": "V020", "size": "V021", "visible": "V028", "reveal": "V029"}
 _UNSEEN = {
-    "V020": "its place on screen cannot be told, the target is behind the camera",
-    "V021": "its size cannot be told, the target is not all before the camera",
+    "V020": "its place on screen is unknown: the target is behind the camera",
+    "V021": "its size is unknown: a part of the target is not before the camera",
 }
 
 

@@ -112,8 +112,8 @@ ENDING = {
 }
 
 UNKNOWN = {
-    "V024": "cannot be told, there is none",
-    "V016": "cannot be told, the keyframe is not reached in its shot",
+    "V024": "is unknown: there is none",
+    "V016": "is unknown: the keyframe is not reached in its shot",
 }
 """What a message says where a claim has no finite worst value."""
 

@@ -86,7 +86,7 @@ def first_few(faults: Iterator[str]) -> Iterator[str]:
     """
     yield from islice(faults, MOST_REPORTED)
     if next(faults, None) is not None:
-        yield f"more than {MOST_REPORTED} faults of its form are not told one by one"
+        yield f"more than {MOST_REPORTED} faults of its form: the others are not listed"
 
 
 def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:

@@ -26,7 +26,7 @@ def song_faults(mission: MissionIR, end: float) -> list[Diagnostic]:
     length = seconds(music.file, data)
     if length is None:
         note = "show files carry it as it is, and players may not play it"
-        message = f"nothing tells how long `{music.file}` is: it does not read as music"
+        message = f"the length of `{music.file}` is unknown: it does not read as music"
         return [Diagnostic("D126", message, (label,), (note,), "export it again, as MP3")]
     silent = end - music.start - length
     if silent <= 0.0:

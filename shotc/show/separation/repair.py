@@ -108,7 +108,7 @@ class Keeper:
         nearest = self._closest(window)
         if kept(nearest.proven, self.across):
             return
-        self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
+        self.ctx.progress(f"repairing fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
         recorded = recorded_in(self.mission, self.flight, (float(breaks[0]), float(breaks[-1])))
         if standing is not None and recorded is not None:

@@ -1,4 +1,4 @@
-"""Missions of the MultiDrone project: mended where they can be, told where they had to be."""
+"""Missions of the MultiDrone project: corrected where they can be, told where they had to be."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_a_speed_that_contradicts_the_times_is_told_and_the_times_hold() -> None
 def test_a_shot_ends_where_the_way_of_its_target_does() -> None:
     (shot,) = shots(made := imported(action("CHASE", '{"x_s": -9, "z_0": 5}', duration="600")))
     assert shot["timing"] == {"start": 40, "duration": 40}
-    assert ("the action lasts 600 s, the way of its target is told for 40.0 s", 9) in said(made)
+    assert ("the action lasts 600 s, the path of its target is given for 40.0 s", 9) in said(made)
 
 
 def test_a_target_that_waits_is_there_until_it_goes() -> None:

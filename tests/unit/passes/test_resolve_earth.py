@@ -33,7 +33,7 @@ def on_earth(*shots: str) -> str:
         ("lat: 8.5417, lon: 47.3765", "look swapped; write `lat: 47.3765, lon: 8.5417`"),
         ("lat: 47.3765, lon: -8.5417", "the longitude looks as if it had the wrong sign"),
         ("lat: -47.3765, lon: 8.5417", "the latitude looks as if it had the wrong sign"),
-        ("lat: 51.5, lon: -0.12", "mend the place"),
+        ("lat: 51.5, lon: -0.12", "correct the place"),
     ],
 )
 def test_a_place_far_from_the_origin_is_told_once_with_the_likely_slip(place: str, remedy: str) -> None:

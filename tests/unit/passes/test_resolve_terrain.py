@@ -182,8 +182,8 @@ def test_a_track_that_leads_through_a_rise_between_its_points_is_told_and_a_lift
     assert 0.0 < time < 80.0
     lift = float(told.help.split("lift: ")[1].split(" m")[0])
     assert lift == pytest.approx(depth + 0.9, abs=0.011)
-    mended = TRACKED.replace("TRACK", f"{track[:-1]}, lift: {lift}}}")
-    assert "G018" not in {d.code for d in faults(mended, folder)}
+    corrected = TRACKED.replace("TRACK", f"{track[:-1]}, lift: {lift}}}")
+    assert "G018" not in {d.code for d in faults(corrected, folder)}
 
 
 @pytest.mark.slow
@@ -198,8 +198,8 @@ def test_a_recording_is_looked_at_along_all_its_rows(folder):
         assert {d.code for d in found} & {"G018"} == codes
         over = "lift: {above: ground, height: 0.90 m}"
         assert all(over in (d.help or "") for d in found if d.code == "G018")
-        mended = faults(TRACKED.replace("TRACK", f"{{file: ride.csv, {over}}}"), folder)
-        assert "G018" not in {d.code for d in mended}
+        corrected = faults(TRACKED.replace("TRACK", f"{{file: ride.csv, {over}}}"), folder)
+        assert "G018" not in {d.code for d in corrected}
 
 
 BEYOND = [

@@ -141,16 +141,16 @@ def test_a_jump_names_both_lines_and_the_row_to_mend(tmp_path: Path) -> None:
     assert "70.0 m/s" in d.message
     assert d.notes == ("t.csv, line 42, after line 41: 30.00 m in 0.1 s, at t = 3.9 s", "it does so 2 times")
     assert d.help == (
-        "mend or drop line 42: without it the target moves there at 3.0 m/s, "
+        "correct or drop line 42: without it the target moves there at 3.0 m/s, "
         "or give it `top_speed: 300.1 m/s` if it is as fast as that"
     )
 
 
 def test_a_first_or_last_row_that_jumps_is_told_with_its_neighbour(tmp_path: Path) -> None:
     d = only(written(recorded(tmp_path, runs(0))), tmp_path)
-    assert d.help.startswith("mend line 2 or 3, or the time between them")
+    assert d.help.startswith("correct line 2 or 3, or the time between them")
     d = only(written(recorded(tmp_path, runs(59))), tmp_path)
-    assert d.help.startswith("mend line 60 or 61, or the time between them")
+    assert d.help.startswith("correct line 60 or 61, or the time between them")
 
 
 def test_a_runner_at_200_km_per_hour_is_told_by_his_top_speed(tmp_path: Path) -> None:

@@ -111,8 +111,8 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     A single subject must also not be hidden more than before, in what is reported of it, unless the shot
     keeps a promise only then. Of several subjects, one may be hidden for another.
     """
-    mends = keeps_promises(subject, after) and not keeps_promises(subject, before)
-    against = lost if len(subject.framed) == 1 and not mends else broken
+    corrects = keeps_promises(subject, after) and not keeps_promises(subject, before)
+    against = lost if len(subject.framed) == 1 and not corrects else broken
     for which in range(len(subject.framed)):
         old, new = shown(subject, before, which), shown(subject, after, which)
         if new.cropped > old.cropped + SLACK_SHARE or not _promised(subject, old, new):

@@ -66,7 +66,7 @@ def _remedy(mission: MissionIR, shot: Shot, film: Way, track: Track) -> str:
         shake = _shake(mission, shot, film, smoothed(track, seconds))
         if shake is not None and shake.share <= MOST_SHARE:
             return f"write `smooth: {seconds:g} s` in the track"
-    return "mend the recording, or film it from farther away"
+    return "correct the recording, or film it from farther away"
 
 
 def _shake(mission: MissionIR, shot: Shot, film: Way, track: Track) -> _Shake | None:

@@ -55,7 +55,7 @@ def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Di
     label = (files.origins.value(BUILDINGS),)
     if houses.wrong:
         message = f"{_count(houses.wrong)} of `{written.file}` with an outline or a height that is impossible"
-        help_ = "mend their outlines and heights in the file, or take them out of it"
+        help_ = "correct their outlines and heights in the file, or take them out of it"
         yield Diagnostic("G034", message, label, _listed(houses.wrong), help_)
     if houses.unknown:
         message = f"{_count(houses.unknown)} of `{written.file}` without a height"

@@ -189,7 +189,7 @@ def _from_file(
         labels = (files.origins.value(path), files.origins.value((*path[:-2], "count"), "the count"))
         note = f"`{name}` has {len(pads)} rows, and the fleet has {count} drones"
         help_ = f"write `count: {len(pads)}`, or give {count} rows"
-        return Diagnostic("D004", "the layout has not one row a drone", labels, (note,), help_)
+        return Diagnostic("D004", "the layout does not have one row for each drone", labels, (note,), help_)
     if len(table.columns) == 2:
         pads = [(x, y, z + site.ground(x, y)) for x, y, z in pads]
     return tuple(pads)

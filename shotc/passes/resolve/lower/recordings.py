@@ -79,9 +79,9 @@ def _fault(table: NumberTable) -> FileFault | None:
         earlier, line = table.lines[i], table.lines[i + 1]
         if after == before:
             message = f"its times do not rise: line {line} repeats the {after:.10g} s of line {earlier}"
-            return FileFault(message, line, "keep one of the two rows, or mend the time of one")
+            return FileFault(message, line, "keep one of the two rows, or correct the time of one")
         message = f"its times do not rise: line {line} says {after:.10g} s, line {earlier} {before:.10g} s"
-        return FileFault(message, line, "mend the time, or sort the rows by time")
+        return FileFault(message, line, "correct the time, or sort the rows by time")
     return None
 
 

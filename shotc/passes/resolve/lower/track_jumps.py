@@ -120,9 +120,9 @@ def _remedy(course: CheckedTrack, i: int) -> str:
             speed = dist(points[k - 1], points[k + 1]) / (times[k + 1] - times[k - 1])
             if speed <= course.top_speed:
                 row = f"line {course.lines[k]}" if course.file else f"point {k + 1}"
-                return f"mend or drop {row}: without it the target moves there at {_speed(speed)}"
+                return f"correct or drop {row}: without it the target moves there at {_speed(speed)}"
     one, other = (course.lines[i], course.lines[i + 1]) if course.file else (i + 1, i + 2)
-    return f"mend {'line' if course.file else 'point'} {one} or {other}, or the time between them"
+    return f"correct {'line' if course.file else 'point'} {one} or {other}, or the time between them"
 
 
 def _stretches(track: Track) -> Iterator[tuple[tuple[float, float], tuple[Vec3, Vec3]]]:

@@ -178,9 +178,9 @@ def test_a_promise_of_what_is_visible_holds_for_every_frame_and_is_told_with_who
     assert "zone `screen` hides up to" in told.notes[-1]
     kept = float(told.help.split("`visible: ")[1].split(" %")[0]) / 100
     assert kept == pytest.approx(found.worst, abs=1e-3)
-    mended = screened(-1.0, Promise(visible=kept))
-    assert "V028" not in codes(mended)
-    assert claim(mended, "tower visible").holds
+    corrected = screened(-1.0, Promise(visible=kept))
+    assert "V028" not in codes(corrected)
+    assert claim(corrected, "tower visible").holds
 
 
 def before_the_first_frame(promise: Promise) -> TrajectoryIR:

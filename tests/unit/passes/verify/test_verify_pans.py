@@ -1,4 +1,4 @@
-"""Pans as they are flown: told once a shot, with the number that is flown, and a remedy that mends it."""
+"""Pans as they are flown: told once a shot, with the number that is flown, and a remedy that corrects it."""
 
 from __future__ import annotations
 

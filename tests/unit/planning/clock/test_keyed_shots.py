@@ -260,8 +260,8 @@ class TestRefused:
         shot = KEYS.replace("[45, -22, 9], look_at: walker", "[45, -22, 9], heading: 180 deg, pitch: 0 deg")
         (fault,) = [d for d in compiled(shot, "{duration: 20}").diagnostics if d.code == "M016"]
         angles, start = re.findall(r"`(heading: [^`]*|start: [^`]*)`", fault.help)
-        mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
-        assert_planned(mended, f"{{{start}, duration: 20}}")
+        corrected = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
+        assert_planned(corrected, f"{{{start}, duration: 20}}")
 
     @pytest.mark.long
     def test_a_keyframe_that_another_drone_is_too_near_to_is_told_with_both(self) -> None:

@@ -149,8 +149,8 @@ def test_a_keyframe_at_a_parked_drone_is_told_by_check_on_its_line_with_a_move_t
     assert faults[0].labels[1].span.line == text[: text.index("cam2:")].count("\n") + 1
     assert "5.38 m apart" in faults[0].notes[0]
     place = faults[0].help.rpartition("to ")[2]
-    mended = text.replace("[-10, -49, 3.6]", place)
-    assert check_source(mended.encode(), "m.yaml", None).diagnostics == ()
+    corrected = text.replace("[-10, -49, 3.6]", place)
+    assert check_source(corrected.encode(), "m.yaml", None).diagnostics == ()
 
 
 def test_where_it_is_open_who_films_nobody_is_known_to_stand() -> None:

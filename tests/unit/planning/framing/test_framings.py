@@ -239,7 +239,7 @@ def test_what_lets_a_framing_be_had_does_when_it_is_written(rules: str, view: st
     mission = text(f"target: runner, size: {size}{view}").replace("shots:", f"{rules}shots:")
     for fault in told(mission):
         for remedy in remedies(mission, fault) if fault.code in ("M031", "M032") else ():
-            assert any(not has_errors(told(mended)) for mended in remedy.missions), remedy.text
+            assert any(not has_errors(told(corrected)) for corrected in remedy.missions), remedy.text
 
 
 def test_subjects_too_far_apart_for_their_sizes_are_told_with_the_size_there_is() -> None:

@@ -149,7 +149,7 @@ def flown(*pictures: Picture, count: int = 24, roomy: float = 2.6) -> ShowIR:
     assert done.value is not None, done.diagnostics
     bound = BoundSplines().run(done.value, CONTEXT).value
     assert bound is not None
-    assert (bound.fleets[0].coef == done.value.fleets[0].coef).all()  # nothing had to be mended
+    assert (bound.fleets[0].coef == done.value.fleets[0].coef).all()  # nothing had to be corrected
     return bound
 
 

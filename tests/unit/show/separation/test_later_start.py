@@ -56,12 +56,12 @@ def test_two_groups_that_meet_are_named_with_a_start_that_does() -> None:
     assert found is not None, d.help
     first, second = SWAPPED.split("  - id: two")
     later = f"start: {found[3]} s"
-    mended = (
+    corrected = (
         first.replace("start: 40 s", later) + "  - id: two" + second
         if found[1] == "swarm"
         else first + "  - id: two" + second.replace("start: 40 s", later)
     )
-    done = compiled_text(mended)
+    done = compiled_text(corrected)
     assert done.plan is not None, done.diagnostics
     assert float(found[3]) == 40.0 + float(found[2])
 
