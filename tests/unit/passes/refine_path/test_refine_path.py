@@ -99,7 +99,7 @@ def test_a_refiner_s_own_errors_are_passed_on_with_its_package():
     assert outcome.value is None
     (fault,) = outcome.diagnostics
     assert fault.message == "no luck with pass"
-    assert fault.notes == ("worst at stage 3", "told by refiner `odd` of package odd-maker")
+    assert fault.notes == ("worst at stage 3", "reported by refiner `odd` of package odd-maker")
 
 
 def test_a_refiner_s_warnings_are_passed_on():
@@ -126,7 +126,7 @@ def test_a_shot_that_accepts_it_flies_its_convex_path_and_the_others_stay_refine
     assert warning.notes == (
         "no luck with pass",
         "worst at stage 3",
-        "told by refiner `odd` of package odd-maker",
+        "reported by refiner `odd` of package odd-maker",
     )
 
 
