@@ -27,18 +27,27 @@ class ImageFault(NamedTuple):
     size: bool = False
 
 
+class _ImageSize(NamedTuple):
+    """Width and height of an image, pixels, and its number of frames."""
+
+    width: int
+    height: int
+    frames: int
+
+
 def image_fault(data: bytes) -> ImageFault | None:
     """Return the fault of an image file, or None if it can be projected onto lights."""
     if data.startswith(_PNG):
-        found = _png(data)
+        size = _png(data)
     elif data.startswith(_GIF):
-        found = _gif(data)
+        size = _gif(data)
     else:
         return ImageFault(FileFault("it is neither a PNG nor a GIF", None, _EXPORT))
-    return found if isinstance(found, ImageFault) else _too_large(*found)
+    return size if isinstance(size, ImageFault) else _too_large(size)
 
 
-def _too_large(width: int, height: int, frames: int) -> ImageFault | None:
+def _too_large(size: _ImageSize) -> ImageFault | None:
+    width, height, frames = size
     pixels = width * height
     if not pixels or not frames:
         return ImageFault(FileFault("it has no pixels", None, _EXPORT))
@@ -64,7 +73,7 @@ def _cut(at: int, data: bytes) -> ImageFault:
     return ImageFault(FileFault(message, None, "copy the file anew, or export it again"))
 
 
-def _png(data: bytes) -> tuple[int, int, int] | ImageFault:
+def _png(data: bytes) -> _ImageSize | ImageFault:
     """Return width, height and frames of a PNG by its chunks (PNG, Third Edition, 5.3)."""
     at, size, frames = len(_PNG), (0, 0), 1
     while at + 12 <= len(data):
@@ -77,12 +86,12 @@ def _png(data: bytes) -> tuple[int, int, int] | ImageFault:
         if kind == b"acTL" and length >= 4:
             (frames,) = unpack_from(">I", data, at + 8)
         if kind == b"IEND":
-            return (*size, frames)
+            return _ImageSize(*size, frames)
         at = end
     return _cut(at, data)
 
 
-def _gif(data: bytes) -> tuple[int, int, int] | ImageFault:
+def _gif(data: bytes) -> _ImageSize | ImageFault:
     """Return width, height and frames of a GIF by its blocks (GIF89a, 18 to 27)."""
     if len(data) < 13:
         return _cut(len(data), data)
@@ -91,7 +100,7 @@ def _gif(data: bytes) -> tuple[int, int, int] | ImageFault:
     while at < len(data):
         kind = data[at]
         if kind == 0x3B:
-            return width, height, frames
+            return _ImageSize(width, height, frames)
         if kind == 0x2C and at + 10 < len(data):
             frames += 1
             start = at + 11 + _colors(data[at + 9])
@@ -104,7 +113,7 @@ def _gif(data: bytes) -> tuple[int, int, int] | ImageFault:
             # Many writers omit the last byte, but a frame that ends in its middle is a fault.
             return _cut(at, data)
         at = end
-    return (width, height, frames) if frames else _cut(at, data)
+    return _ImageSize(width, height, frames) if frames else _cut(at, data)
 
 
 def _colors(packed: int) -> int:

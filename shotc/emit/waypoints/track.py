@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +78,7 @@ def poses_at(flight: DroneTrajectory, time: Array) -> Poses:
 def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
     """Return the samples of a drone's flight between take-off and landing."""
     spans = _spans(flight)
-    begin = spans[0][0] if spans else flight.phases[0].end
+    begin = spans[0].start if spans else flight.phases[0].end
     times: list[Array] = [np.array([begin])]
     stretches: list[SampleRange] = []
     first = 0
@@ -135,16 +136,25 @@ def select(poses: Poses, part: NDArray[np.bool_] | NDArray[np.int64] | slice) ->
     )
 
 
-def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool]]:
+class _FlightSpan(NamedTuple):
+    """A part of a flight: start and end, seconds, its shot, and whether the drone stands all the time."""
+
+    start: float
+    end: float
+    shot: str | None
+    rests: bool
+
+
+def _spans(flight: DroneTrajectory) -> list[_FlightSpan]:
     rests = _rests(flight.curve)
-    spans: list[tuple[float, float, str | None, bool]] = []
+    spans: list[_FlightSpan] = []
     for phase in flight.phases:
         if phase.name in UPRIGHT:
             continue
         inside = [(max(a, phase.start), min(b, phase.end)) for a, b in rests]
         inside = [(a, b) for a, b in inside if b - a >= SHORTEST_REST_S]
         cuts = sorted({phase.start, phase.end, *(t for pair in inside for t in pair)})
-        spans.extend((a, b, phase.shot, (a, b) in inside) for a, b in pairwise(cuts))
+        spans.extend(_FlightSpan(a, b, phase.shot, (a, b) in inside) for a, b in pairwise(cuts))
     return spans
 
 

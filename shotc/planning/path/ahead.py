@@ -185,22 +185,30 @@ def near_course(
     return spline(breaks, coef[:, None]) if status in {Status.SOLVED, Status.INACCURATE} else status
 
 
-def nearest_ends(
-    course: CourseBounds, start: Pose, goal: Pose | None
-) -> tuple[CourseBounds, Pose, Pose | None, Pose | None]:
-    """Return the course, and the poses in which a transfer from one pose to another begins and ends.
+class TransferEnds(NamedTuple):
+    """The poses in which a transfer from one pose to another begins and ends; None without a goal.
 
-    The course is unwrapped to the start's winding. The body yaws of both poses are as near to the given ones
-    as the cone allows. The last result is the given goal, shifted by whole turns to the end of the transfer.
+    course : unwrapped to the start's winding
+    first, last : with body yaws as near to the given ones as the cone allows
+    goal : the given one, shifted by whole turns to the end of the transfer
     """
+
+    course: CourseBounds
+    first: Pose
+    last: Pose | None
+    goal: Pose | None
+
+
+def nearest_ends(course: CourseBounds, start: Pose, goal: Pose | None) -> TransferEnds:
+    """Return the ends of a transfer along a course."""
     wound = course.wound(start[BODY_YAW])
     first, last = wound.ends
     first_pose = _turned(start, min(max(start[BODY_YAW], first[0]), first[1]))
     if goal is None:
-        return wound, first_pose, None, None
+        return TransferEnds(wound, first_pose, None, None)
     turns = 2 * pi * round((0.5 * (last[0] + last[1]) - goal[BODY_YAW]) / (2 * pi))
     wound_goal = tuple(c + turns if k in (CAM_YAW, BODY_YAW) else c for k, c in enumerate(goal))
-    return (
+    return TransferEnds(
         wound,
         first_pose,
         _turned(wound_goal, min(max(wound_goal[BODY_YAW], last[0]), last[1])),

@@ -257,12 +257,12 @@ def _looking_ahead(
 
     path : x, y, z over s, and its course
     """
-    course, first_pose, ends, wound_goal = nearest_ends(path[1], start, goal)
-    flown = headed(drone, path[0], course, (first_pose, ends))
+    ends = nearest_ends(path[1], start, goal)
+    flown = headed(drone, path[0], ends.course, (ends.first, ends.last))
     if isinstance(flown, Status):
         return AngleFailure("body", flown)
-    before = _turn(drone, start, first_pose)
-    after = [] if ends is None or wound_goal is None else _turn(drone, ends, wound_goal)
+    before = _turn(drone, start, ends.first)
+    after = [] if ends.last is None or ends.goal is None else _turn(drone, ends.last, ends.goal)
     if isinstance(before, AngleFailure):
         return before
     return after if isinstance(after, AngleFailure) else [*before, flown, *after]

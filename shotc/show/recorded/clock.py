@@ -143,24 +143,33 @@ def worst(widths: Array, coef: Array, limits: Limits) -> Need:
         if share[drone, k] > best.factor:
             piece = int(np.clip(k - (order == 1), 0, len(widths) - 1))
             value = _derivative(widths, coef[drone : drone + 1], order)[0, k]
-            word, size, most = _named(value, order, limits)
-            best = Need(drone, word, size, most, piece, float(share[drone, k]))
+            used = _used(value, order, limits)
+            best = Need(drone, used.limit, used.size, used.most, piece, float(share[drone, k]))
     return best
 
 
-def _named(value: Array, order: int, limits: Limits) -> tuple[str, float, float]:
+class _Used(NamedTuple):
+    """A limit in words, the size of what it limits, and the limit itself, SI."""
+
+    limit: str
+    size: float
+    most: float
+
+
+def _used(value: Array, order: int, limits: Limits) -> _Used:
+    """Return the limit of a derivative that is used most; value : shape (3,)."""
     if order == 1:
         across, up = float(np.hypot(value[0], value[1])), float(value[2])
         each = [
-            ("speed", across, limits.speed),
-            ("climb", up, limits.climb),
-            ("descent", -up, limits.descent),
+            _Used("speed", across, limits.speed),
+            _Used("climb", up, limits.climb),
+            _Used("descent", -up, limits.descent),
         ]
-        return max(each, key=lambda one: one[1] / one[2])
+        return max(each, key=lambda one: one.size / one.most)
     size = float(np.linalg.norm(value))
     if order == 2:
-        return "acceleration", size, limits.usable_acceleration
-    return "jerk", size, limits.jerk
+        return _Used("acceleration", size, limits.usable_acceleration)
+    return _Used("jerk", size, limits.jerk)
 
 
 def _shares(widths: Array, coef: Array, limits: Limits) -> list[tuple[int, Array]]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,6 +36,14 @@ LACK_SHARE = 1e-4
 """Share of the distance that a spline may lack: a fifth of the margin with which moves are requested."""
 
 BINDS = ("speed", "climb", "descent", "acceleration", "jerk")
+
+
+class BindingLimit(NamedTuple):
+    """What limits a move: the least duration of a piece, seconds, the row of the drone, and the limit."""
+
+    piece: float
+    drone: int
+    limit: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,8 +99,9 @@ def fastest_arc(
     least = float(free.least_share(ctrl))
     if least < 1.0:
         ctrl = np.concatenate([ctrl[:3], ctrl[3:-3] / least, ctrl[-3:]])
-    pieces, drone, limit = drones.binding(ctrl)
-    return ArcMove(ctrl, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
+    binding = drones.binding(ctrl)
+    piece = float(np.ceil(binding.piece / TICK_S) * TICK_S)
+    return ArcMove(ctrl, pivot, piece, binding.limit, binding.drone)
 
 
 def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
@@ -186,12 +196,12 @@ class Drones:
             least = np.maximum(least, most ** (1.0 / order))
         return np.asarray(least)
 
-    def binding(self, ctrl: Array, lift: Array | None = None) -> tuple[float, int, str]:
-        """Return the least duration of a piece for control points (K, 2), the limiting drone and the limit.
+    def binding(self, ctrl: Array, lift: Array | None = None) -> BindingLimit:
+        """Return what limits a move with control points (K, 2).
 
         lift : as in ``least_pieces``, shape (K,)
         """
-        best = (LEAST_PIECE_S, 0, BINDS[0])
+        best = BindingLimit(LEAST_PIECE_S, 0, BINDS[0])
         height = np.zeros(len(ctrl)) if lift is None else lift
         for order in (1, 2, 3):
             rising = np.diff(height, order)
@@ -199,8 +209,9 @@ class Drones:
                 shares = self._shares(rate, order, climb)
                 drone, which = (int(k) for k in np.unravel_index(int(shares.argmax()), shares.shape))
                 seconds = float(shares[drone, which]) ** (1.0 / order)
-                if seconds > best[0]:
-                    best = (seconds, drone, BINDS[which] if order == 1 else BINDS[order + 1])
+                if seconds > best.piece:
+                    limit = BINDS[which] if order == 1 else BINDS[order + 1]
+                    best = BindingLimit(seconds, drone, limit)
         return best
 
     def _shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:

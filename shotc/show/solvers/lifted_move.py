@@ -196,9 +196,9 @@ def lifted(
     if not np.isfinite(best.seconds):
         return None
     ctrl = course.kept(best.ctrl)
-    piece, drone, limit = drones.binding(ctrl, best.lift)
-    piece = max(piece, LEAST_PIECE_S)
-    return LiftedMove(ctrl, course.pivot, best.lift, float(np.ceil(piece / TICK_S) * TICK_S), limit, drone)
+    binding = drones.binding(ctrl, best.lift)
+    piece = float(np.ceil(max(binding.piece, LEAST_PIECE_S) / TICK_S) * TICK_S)
+    return LiftedMove(ctrl, course.pivot, best.lift, piece, binding.limit, binding.drone)
 
 
 def _farthest(ends: tuple[Array, Array]) -> float:
