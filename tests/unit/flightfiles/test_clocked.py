@@ -110,7 +110,7 @@ def test_shots_are_aligned_by_the_times_that_the_mission_fixes() -> None:
     assert any("in_frame of shot `wide`" in note for note in blind.notes)
     open_ = text.replace("timing: {start: 8, duration: 4}, ", "")
     untold = verified(("cam1.csv", "\n".join(wide).encode()), text=open_)
-    assert any("nothing tells when it is filmed" in note for note in untold.notes)
+    assert any("the file does not give its time" in note for note in untold.notes)
 
 
 def test_nothing_is_claimed_of_angles_that_a_table_has_not() -> None:

@@ -101,7 +101,7 @@ def test_another_way_to_a_picture_ends_when_the_first_one_did() -> None:
 
 def _lasts(block: object) -> float:
     way = windows(FLIGHT.coef)[-2]
-    assert way == getattr(block, "way")  # noqa: B009
+    assert way == getattr(block, "stretch")  # noqa: B009
     return float(FLIGHT.breaks[way.last] - FLIGHT.breaks[way.first])
 
 
