@@ -151,7 +151,7 @@ def _clear(
     other: tuple[int, FleetReturn],
 ) -> bool:
     mission = ir.keyframes.mission
-    pair = (_flown(mission, time, homings[i], found) for i, found in (one, other))
+    pair = (_flown(mission, time, homings[i], each_return) for i, each_return in (one, other))
     return all(claim.holds for claim in _beside(mission, time, *pair))
 
 
@@ -164,8 +164,8 @@ def _between(
     return [claim for pair in combinations(flown, 2) for claim in _beside(mission, time, *pair)]
 
 
-def _flown(mission: MissionIR, time: float, homing: Homing, found: FleetReturn) -> FleetSpline:
-    return FleetSpline(mission.fleet(found.fleet), *homing.flown(time, found))
+def _flown(mission: MissionIR, time: float, homing: Homing, fleet_return: FleetReturn) -> FleetSpline:
+    return FleetSpline(mission.fleet(fleet_return.fleet), *homing.flown(time, fleet_return))
 
 
 def _beside(mission: MissionIR, time: float, one: FleetSpline, other: FleetSpline) -> Iterator[Claim]:

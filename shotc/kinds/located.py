@@ -35,11 +35,11 @@ def in_world(
     i, j = (table.columns.index(column) for column in ("lat", "lon"))
     heights = _heights(table, "ele" if above_sea else "height")
     for number, row in enumerate(table.rows, 1):
-        found = stray(origin, row[i], row[j])
-        if found is not None:
+        outlier = stray(origin, row[i], row[j])
+        if outlier is not None:
             line = table.lines[number - 1]
-            notes = (f"point {number} of {len(table.rows)} in `{name}`, line {line}", found.note)
-            return Diagnostic("G017", found.message, label, notes, found.help)
+            notes = (f"point {number} of {len(table.rows)} in `{name}`, line {line}", outlier.note)
+            return Diagnostic("G017", outlier.message, label, notes, outlier.help)
     base = (origin.lat_deg, origin.lon_deg, origin.alt)
     put = to_world if above_sea else above_ground
     return [put((row[i], row[j], height), base) for row, height in zip(table.rows, heights, strict=True)]

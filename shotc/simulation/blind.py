@@ -53,24 +53,24 @@ class BlindHold:
         held = tuple((start + BLIND_S, end) for start, end in lost if start + BLIND_S < min(end, until))
         return BlindHold(film, held, until)
 
-    def setpoint(self, time: float, asked: VehicleSetpoint, runs: int) -> VehicleSetpoint:
+    def setpoint(self, time: float, planned: VehicleSetpoint, runs: int) -> VehicleSetpoint:
         """Return the setpoint at a time instead of the one that is asked; called at every step in order."""
         if any(start <= time < end for start, end in self.held):
             if self._braking is None:
                 place, velocity = (
-                    np.broadcast_to(part, (runs, 3)) for part in (asked.position, asked.velocity)
+                    np.broadcast_to(part, (runs, 3)) for part in (planned.position, planned.velocity)
                 )
                 self._braking, self._back = _Braking(time, place, velocity), None
             return self._stopping(self._braking, time)
         if self._braking is not None:
-            self._back = self._returning(self._stopping(self._braking, time), time, asked)
+            self._back = self._returning(self._stopping(self._braking, time), time, planned)
             self._braking = None
         if self._back is None:
-            return asked
+            return planned
         if (time >= self._back.start + self._back.durations).all():
             self._back = None
-            return asked
-        parts = (asked.position, asked.velocity, asked.acceleration)
+            return planned
+        parts = (planned.position, planned.velocity, planned.acceleration)
         return VehicleSetpoint(*(part + self._back.beside(time, order) for order, part in enumerate(parts)))
 
     def _stopping(self, of: _Braking, time: float) -> VehicleSetpoint:
@@ -85,8 +85,8 @@ class BlindHold:
             np.where(moves, -most * along, 0.0),
         )
 
-    def _returning(self, now: VehicleSetpoint, time: float, asked: VehicleSetpoint) -> Fading:
-        off, rate = now.position - asked.position, now.velocity - asked.velocity
+    def _returning(self, now: VehicleSetpoint, time: float, planned: VehicleSetpoint) -> Fading:
+        off, rate = now.position - planned.position, now.velocity - planned.velocity
         far = 4.0 * np.abs(off).max(axis=1) / self.film.drone.limits.slowest
         lasts = np.maximum(LEAST_BACK_S, np.minimum(far, self.lands - time))
         return Fading(self.film, np.full(len(off), time), lasts, off, rate)

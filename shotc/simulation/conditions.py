@@ -55,13 +55,13 @@ class Conditions:
 
     def lost(self, name: str) -> tuple[Interval, ...]:
         """Return the intervals in which a drone or a target has no satellite positions, in order, apart."""
-        found: list[Interval] = []
+        spans: list[Interval] = []
         for start, end in sorted((o.start, o.end) for o in self.outages if o.who in ("", name)):
-            if found and start <= found[-1][1]:
-                found[-1] = (found[-1][0], max(end, found[-1][1]))
+            if spans and start <= spans[-1][1]:
+                spans[-1] = (spans[-1][0], max(end, spans[-1][1]))
             else:
-                found.append((start, end))
-        return tuple(found)
+                spans.append((start, end))
+        return tuple(spans)
 
     def seed_of(self, run: int, what: str) -> tuple[int, ...]:
         """Return the seed of one random quantity in a run."""

@@ -198,37 +198,37 @@ class Guidance:
         now, plan = self._held.setpoint(time), self.film.setpoint(self.film.step(time))
         off, rate = now.position - plan.position, now.velocity - plan.velocity
         times = np.arange(time, shot.phase.end, STAGE_S)
-        found = reaches(self.world, self.film.drone, self.targets, times) if len(times) else ()
+        reached = reaches(self.world, self.film.drone, self.targets, times) if len(times) else ()
         for r in np.flatnonzero(self._away).tolist():
             duration = max(BACK_S, 4.0 * float(np.abs(off[r]).max()) / self.film.drone.limits.slowest)
             back = self._back.begun(r, time, duration, (off[r], rate[r]))
             on_way = times[times < time + duration]
-            if self._is_clear(back.places(r, on_way), self.film.places(on_way), r, found):
+            if self._is_clear(back.places(r, on_way), self.film.places(on_way), r, reached):
                 self._back, self._away[r] = back, False
         if not self._away.any():
             self._active = None
 
-    def _is_clear(self, way: Array, plan: Array, run: int, found: tuple[TargetReach, ...]) -> bool:
+    def _is_clear(self, path: Array, plan: Array, run: int, reached: tuple[TargetReach, ...]) -> bool:
         """Return whether a way (M, 3) to the plan keeps clear of where targets may be, and lacks no more
         clearance from what stands than the plan does, (M, 3), metres.
 
-        found : where targets may be, at the times of the way and later
+        reached : where targets may be, at the times of the way and later
         """
         assert self._standing is not None
         most = np.maximum(self._standing.lack(plan), 0.0) + NEARER_M
-        clear = (each.until(len(way)).lack(run, way) <= NEARER_M for each in found)
-        return bool((self._standing.lack(way) <= most).all()) and all(each.all() for each in clear)
+        clear = (each.until(len(path)).lack(run, path) <= NEARER_M for each in reached)
+        return bool((self._standing.lack(path) <= most).all()) and all(each.all() for each in clear)
 
     def _around(self, shot: Anew | Rejoined, stages: Array) -> tuple[TargetReach, ...]:
         """Return where those moving targets may be at the stages 1 to N, and once more at N, that a shot does
         not keep clear of by itself.
         """
         near = shot.target if isinstance(shot, Chased) else None
-        found = reaches(self.world, self.film.drone, self.targets, np.append(stages[1:], stages[-1]), near)
+        reached = reaches(self.world, self.film.drone, self.targets, np.append(stages[1:], stages[-1]), near)
         if not isinstance(shot, ComposedShot):
-            return found
+            return reached
         bodies = {each.target for each in shot.subjects} | {each.name for each in self.targets}
-        return tuple(each for each in found if each.target not in bodies)
+        return tuple(each for each in reached if each.target not in bodies)
 
     def _replan(self, shot: Anew | Rejoined, time: float, drone: tuple[Array, Array]) -> None:
         assert self._held is not None
@@ -240,7 +240,7 @@ class Guidance:
         stages = time + STAGE_S * np.arange(shot.stages + 1, dtype=np.float64)
         known = {} if back else {each.name: each.foreseen(stages) for each in self.targets}
         turn, rise = self._turn(shot, time, known), self._risen(shot, time, known)
-        found = self._around(shot, stages)
+        reached = self._around(shot, stages)
         plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
             last = self._held.plans[r]
@@ -249,7 +249,7 @@ class Guidance:
                 continue
             assert self._standing is not None
             walls = self._standing.beside(last, stages)
-            walls = with_targets(walls, found, r, followed(last, stages, self._standing.keeping)[1:])
+            walls = with_targets(walls, reached, r, followed(last, stages, self._standing.keeping)[1:])
             of = ReplanInstant(
                 known, last, r, float(turn[r]), float(rise[r]), self._traffic(r, stages), walls
             )

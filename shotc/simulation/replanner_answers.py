@@ -38,14 +38,14 @@ def _misshapen(plan: Plan, stages: Array) -> str:
         "accelerations": (count - 1, 3),
         "aim": (count, 2),
     }
-    for name, wanted in shapes.items():
+    for name, expected in shapes.items():
         part = getattr(plan, name)
         if name == "aim" and part is None:
             continue
         if not isinstance(part, np.ndarray) or part.dtype.kind != "f":
             return f"`{name}` of its plan is {_kind(part)} and no array of floats"
-        if part.shape != wanted:
-            return f"`{name}` of its plan has the shape {part.shape}, and {wanted} is wanted"
+        if part.shape != expected:
+            return f"`{name}` of its plan has the shape {part.shape}, and {expected} is wanted"
     return ""
 
 

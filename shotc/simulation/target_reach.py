@@ -98,17 +98,17 @@ def reaches(
         mine = known.get(target.name)
         if target.track is None and mine is None:
             continue
-        found = _expected(world, target, mine, times)
+        reach = _expected(world, target, mine, times)
         spread = 0.0 if mine is None or target.name == near else SURE * mine.tracker.spread(times)
-        out.append(replace(found, radius=found.radius + spread, clearance=clearance))
+        out.append(replace(reach, radius=reach.radius + spread, clearance=clearance))
     return tuple(out)
 
 
-def with_targets(walls: Walls, found: Sequence[TargetReach], run: int, places: Array) -> Walls:
+def with_targets(walls: Walls, reached: Sequence[TargetReach], run: int, places: Array) -> Walls:
     """Return walls with the half-spaces beside positions (M, 3) in a run, one of each target for each."""
-    if not found:
+    if not reached:
         return walls
-    every = [each.half_spaces(run, places) for each in found]
+    every = [each.half_spaces(run, places) for each in reached]
     normals, offsets = np.stack([n for n, _ in every], axis=1), np.stack([d for _, d in every], axis=1)
     if not walls.count:
         return Walls(normals, offsets)

@@ -71,8 +71,8 @@ class Tracker:
         """Return the standard deviation of the position predicted to times (M,), (M, R), metres: of the
         horizontal direction in which it is largest.
         """
-        found = stepped(self._past[-1][0], float(times[0]), self.models)
-        return np.array([_across(stepped(found, time, self.models).whole) for time in times.tolist()])
+        estimate = stepped(self._past[-1][0], float(times[0]), self.models)
+        return np.array([_across(stepped(estimate, time, self.models).whole) for time in times.tolist()])
 
     def _forget(self) -> None:
         oldest = self._past[-1][0].time - KEPT_S

@@ -82,7 +82,7 @@ def _about(ground: Ground, low: Array, high: Array) -> Corners:
 def _cut(triangles: Array, pairs: Pairs, low: Array, high: Array) -> Corners:
     """Return the corners of triangles (K, 3, 3) cut to boxes in the plan."""
     low, high = low[pairs.item], high[pairs.item]
-    found = [triangles]
+    corner_sets = [triangles]
     sides = triangles[:, _NEXT] - triangles
     for axis, border in ((0, low), (0, high), (1, low), (1, high)):
         length = np.where(sides[..., axis] == 0.0, np.nan, sides[..., axis])
@@ -90,9 +90,9 @@ def _cut(triangles: Array, pairs: Pairs, low: Array, high: Array) -> Corners:
         share[~((share > 0.0) & (share < 1.0))] = np.nan
         crossing = triangles + share[..., None] * sides
         crossing[..., axis] = np.where(np.isnan(share), np.nan, border[:, axis, None])
-        found.append(crossing)
-    found.append(_over(triangles, low, high))
-    every = np.concatenate(found, axis=1)
+        corner_sets.append(crossing)
+    corner_sets.append(_over(triangles, low, high))
+    every = np.concatenate(corner_sets, axis=1)
     inside = ((every[..., :2] >= low[:, None]) & (every[..., :2] <= high[:, None])).all(axis=2)
     inside &= ~np.isnan(every[..., 2])
     return Corners(np.repeat(pairs.item, inside.sum(axis=1)), every[inside])

@@ -164,26 +164,26 @@ def _lists_as_long(rows: list[str]) -> IntArray | None:
         return None  # the reading row by row then finds the fault
     if len(numbers) != width * len(rows):
         return None
-    found = numbers.reshape(-1, width)
-    return found[:, 1:] if (found[:, 0] == width - 1).all() else None
+    rows_of_lists = numbers.reshape(-1, width)
+    return rows_of_lists[:, 1:] if (rows_of_lists[:, 0] == width - 1).all() else None
 
 
 def _lists(rows: list[list[str]], element: Element, column: int) -> Any:
     """Return one column of rows of words; a list has its length in front."""
-    found: list[Any] = []
+    entries: list[Any] = []
     for words in rows:
         at = 0
         for p in element.properties[:column]:
             at += 1 + int(words[at]) if p.length else 1
         if not element.properties[column].length:
-            found.append(float(words[at]))
+            entries.append(float(words[at]))
             continue
         count = int(words[at])
         own = [int(word) for word in words[at + 1 : at + 1 + count]]
         if len(own) < count or count < 0:
             raise ValueError("a row of its faces is too short")
-        found.append(own)
-    return found
+        entries.append(own)
+    return entries
 
 
 def _bytes(data: bytes, at: int, element: Element, order: str, picked: tuple[int, ...]) -> _Columns:

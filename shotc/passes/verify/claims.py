@@ -107,17 +107,17 @@ def first_least(bounds: Sequence[ProvedExtreme], gap: Callable[[float], float]) 
     Bounds within ``gap`` of the least count as equal: which of them is smaller depends on rounding.
     """
     least = min(bounds, key=lambda bound: bound.proven)
-    room = gap(least.proven) if isfinite(least.proven) else 0.0
-    first = next(bound for bound in bounds if bound.proven <= least.proven + room)
+    allowance = gap(least.proven) if isfinite(least.proven) else 0.0
+    first = next(bound for bound in bounds if bound.proven <= least.proven + allowance)
     return ProvedExtreme(least.proven, least.attained, first.at)
 
 
-def known(found: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
+def known(bound: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
     """Return a bound; where somebody leaves the terrain, one that proves nothing.
 
     unknown : minus infinity for a least value, infinity for a largest one
     """
-    return ProvedExtreme(unknown, unknown, found.at) if isinstance(found, NoGround) else found
+    return ProvedExtreme(unknown, unknown, bound.at) if isinstance(bound, NoGround) else bound
 
 
 def less(bound: ProvedExtreme, radius: float) -> ProvedExtreme:

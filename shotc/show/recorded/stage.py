@@ -187,9 +187,9 @@ def _landed(ends: Array, requirements: FitRequirements) -> Array | None:
     return requirements.pads[nearest] if fits else None
 
 
-def _heights(points: Array, asked: FitRequirements) -> Array:
+def _heights(points: Array, requirements: FitRequirements) -> Array:
     """Return the heights of control points (n, K, 3) above the ground, (n, K), m."""
-    ground = asked.ground(points[..., :2].reshape(-1, 2)).reshape(points.shape[:2])
+    ground = requirements.ground(points[..., :2].reshape(-1, 2)).reshape(points.shape[:2])
     return np.asarray(points[..., 2] - ground)
 
 

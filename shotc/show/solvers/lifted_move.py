@@ -163,14 +163,16 @@ def rising_paths(
     ends : positions before and after, shape (n, 3) each
     need : from (a, b), shape (T, 2), to the required rise of the fleet there, m, shape (T,)
     """
-    far, found = _farthest(ends), []
-    for way in course.ways():
+    far, paths = _farthest(ends), []
+    for line in course.ways():
         share = np.linspace(0.0, 1.0, int(np.clip(far / STEP_M, FEWEST, MOST)))
-        at = np.column_stack([np.interp(share, np.linspace(0.0, 1.0, len(way)), way[:, k]) for k in range(2)])
+        at = np.column_stack(
+            [np.interp(share, np.linspace(0.0, 1.0, len(line)), line[:, k]) for k in range(2)]
+        )
         rise = Rise(share, need(at))
         if np.isfinite(rise.need).all():
-            found.append(RisingPath(at, rise))
-    return found
+            paths.append(RisingPath(at, rise))
+    return paths
 
 
 def lifted(

@@ -159,9 +159,9 @@ def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
     if upright:
         share = _least_upright(one, other)
     else:
-        way = other - one
-        length = np.maximum(_dot(way, way), np.finfo(float).tiny)
-        share = np.clip(-_dot(one, way) / length, 0.0, 1.0)
+        displacement = other - one
+        length = np.maximum(_dot(displacement, displacement), np.finfo(float).tiny)
+        share = np.clip(-_dot(one, displacement) / length, 0.0, 1.0)
     return _size(one, other, share, upright), share
 
 

@@ -71,9 +71,9 @@ def from_mesh(mesh: ObstacleMesh) -> str:
 def sampled_distances(flight: FleetFlight, p: Array) -> Array:
     """Return the distances of points (n, 3) from the ground and all meshes, the smaller, shape (n,)."""
     terrain = flight.mission.terrain
-    found = [p[:, 2] if terrain is None else _from_terrain(terrain, p)]
-    found += [mesh.signed_distance(p) - mesh.spacing for mesh in flight.mission.meshes]
-    return np.asarray(np.min(found, axis=0))
+    distances = [p[:, 2] if terrain is None else _from_terrain(terrain, p)]
+    distances += [mesh.signed_distance(p) - mesh.spacing for mesh in flight.mission.meshes]
+    return np.asarray(np.min(distances, axis=0))
 
 
 def _over_flat_ground(burning: FleetPieces, rows: Sequence[int]) -> Near:

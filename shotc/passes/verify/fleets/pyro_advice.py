@@ -33,19 +33,19 @@ OTHERWISE = "fire it at another moment or from other drones"
 
 def pyro_advice(ir: TrajectoryIR, claim: Claim) -> str:
     """Return the change with which a product of a broken claim keeps its distances."""
-    found = _Firing.of(ir, claim)
-    moment = next(islice(found.moments(), 1), None)
-    drones = next(islice(found.drones(), 1), None)
+    firing = _Firing.of(ir, claim)
+    moment = next(islice(firing.moments(), 1), None)
+    drones = next(islice(firing.drones(), 1), None)
     ways = []
     if moment is not None:
         ways.append(f"write `at: {moment:g} s`")
     if drones is not None:
         ways.append(f"fire it from `drones: [{', '.join(map(str, drones))}]`")
-    clear = found.clear()
+    clear = firing.clear()
     if clear > 0.0:
         ways.append(f"write `clear: {clear:g} m` if the product and your permit allow that")
     if moment is None and drones is None:
-        ways.insert(0, found.within() if claim.unit == "s" else OTHERWISE)
+        ways.insert(0, firing.within() if claim.unit == "s" else OTHERWISE)
     return ", or ".join(ways)
 
 
@@ -153,9 +153,9 @@ class _Firing:
 
 def _apart(fleets: Sequence[FleetTrajectory], own: FleetTrajectory, times: Array) -> Array:
     """Return the distances of a fleet's drones from the nearest other drone of all fleets, (n, T), metres."""
-    found = np.zeros((len(own.coef), len(times)))
+    distances = np.zeros((len(own.coef), len(times)))
     for k, time in enumerate(times):
         at = [places(f.breaks, f.coef, np.clip([time], f.breaks[0], f.breaks[-1]))[:, 0] for f in fleets]
         mine = at[next(i for i, fleet in enumerate(fleets) if fleet is own)]
-        found[:, k] = cKDTree(np.concatenate(at)).query(mine, k=2)[0][:, 1]
-    return found
+        distances[:, k] = cKDTree(np.concatenate(at)).query(mine, k=2)[0][:, 1]
+    return distances
