@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from io import BytesIO
-from math import isfinite
+from math import inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,12 +30,14 @@ class _Panel(NamedTuple):
     """One distribution.
 
     limit : the mission's requirement, or None
+    most : no value is larger, so the axis ends there
     """
 
     title: str
     unit: str
     measure: Callable[[Run], float]
     limit: float | None
+    most: float = inf
 
 
 def draw(done: Rehearsed) -> bytes:
@@ -59,19 +61,27 @@ def draw(done: Rehearsed) -> bytes:
 
 
 def _title(done: Rehearsed) -> str:
-    return f"{done.mission.name}: {len(done.runs)} runs, worst is run {done.worst.number}"
+    count = len(done.runs)
+    if count == 1:
+        return f"{done.mission.name}: 1 run"
+    return f"{done.mission.name}: {count} runs, worst is run {done.worst.number}"
 
 
 def _panels(done: Rehearsed) -> list[_Panel]:
     promise = done.promise
-    least = None if promise.in_frame is None else 100 * promise.in_frame
+    least, sight = (None if p is None else 100 * p for p in (promise.in_frame, promise.in_sight))
     clear = 0.0 if promise.clearance is None else promise.clearance
     pictures = [
-        _Panel("Whole target in frame, worst shot", "% of frames", lambda run: 100 * run.in_frame, least),
+        _Panel(
+            "Whole target in frame, worst shot", "% of frames", lambda run: 100 * run.in_frame, least, 100.0
+        ),
         _Panel(
             "Mean distance on screen, worst shot", "half frames", lambda run: run.error, promise.mean_error
         ),
     ]
+    if sight is not None:
+        title = "Target in sight, worst shot"
+        pictures.append(_Panel(title, "% of instants", lambda run: 100 * run.in_sight, sight, 100.0))
     return [
         *(pictures if done.runs[0].pictures else ()),
         _Panel("Least distance of a body from anything", "m", lambda run: run.clearance, clear),
@@ -81,18 +91,19 @@ def _panels(done: Rehearsed) -> list[_Panel]:
 
 def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
     """Draw every run as a tick with their histogram, the worst run in amber, the requirement in vermilion."""
-    values = np.array([panel.measure(run) for run in done.runs])
-    values = values[np.isfinite(values)]
+    every = np.array([panel.measure(run) for run in done.runs])
+    values = every[np.isfinite(every)]
+    left_out = len(every) - len(values)
     if len(values):
         low, high = float(values.min()), float(values.max())
         if panel.limit is not None:
             low, high = min(low, panel.limit), max(high, panel.limit)
         around = max(high - low, 0.1 * max(abs(high), 1e-3))
-        drawn, _, _ = axes.hist(
-            values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BIN_COUNT), color=SUBJECT
-        )
+        ends = low - 0.05 * around, min(high + 0.05 * around, panel.most)
+        drawn, _, _ = axes.hist(values, bins=np.linspace(*ends, BIN_COUNT), color=SUBJECT)
         axes.plot(values, np.zeros(len(values)), "|", color=INK, markersize=8, clip_on=False)
         axes.set_ylim(0.0, HEADROOM_RATIO * float(drawn.max()))
+        axes.set_xlim(right=min(axes.get_xlim()[1], panel.most))
     worst = panel.measure(done.worst)
     if isfinite(worst):
         axes.axvline(
@@ -110,7 +121,8 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
     axes.ticklabel_format(axis="x", useOffset=False)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     axes.legend(loc="upper left", ncols=2, fontsize=9, frameon=False, labelcolor=QUIET)
-    _labels(axes, panel.title, panel.unit, "runs")
+    beyond = f" ({left_out} of {len(every)} runs infinite)" if left_out else ""
+    _labels(axes, f"{panel.title}{beyond}", panel.unit, "runs")
 
 
 def _timeline(axes: Any, done: Rehearsed, strays: Strays) -> None:

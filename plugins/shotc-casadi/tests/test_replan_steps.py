@@ -20,12 +20,19 @@ def iterations(planner: ShotChase) -> int:
     return int(solver._solver.result.info.iter)
 
 
-def past_a_tree() -> tuple[list[Plan], list[int]]:
-    """Return plans of a flight beside a tree, in which next to nothing is lacking."""
+def past_a_tree(pushed: float = 0.0) -> tuple[list[Plan], list[int]]:
+    """Return plans of a flight beside a tree, in which next to nothing is lacking.
+
+    pushed : standard deviation by which the drone is off its plan at every replan, metres
+    """
     known, planner, plan = lateral(20, 7), ShotChase(problem(20, zone(TREE))), None
+    rng = np.random.default_rng(1)
     plans, took = [], []
-    for k in range(8):
-        plan = planner.replan(known(0.5 * k, BESIDE + 0.5 * k * WALK, WALK), plan).plan
+    for k in range(30 if pushed else 8):
+        place, velocity = BESIDE + 0.5 * k * WALK, WALK
+        if plan is not None and pushed:
+            place, velocity = plan.places[5] + pushed * rng.standard_normal(3), plan.velocities[5]
+        plan = planner.replan(known(0.5 * k, place, velocity), plan).plan
         assert plan is not None
         plans.append(plan)
         took.append(iterations(planner))
@@ -64,6 +71,17 @@ def test_units_halve_the_iterations_and_change_no_plan(in_metres, monkeypatch) -
     _, slower = past_a_tree()
     assert max(np.abs(a.places - b.places).max() for a, b in zip(plans, exact, strict=True)) < 2e-3
     assert sum(took[1:]) < 0.7 * sum(slower[1:])
+
+
+def test_small_violations_beside_an_obstacle_cost_no_iterations(monkeypatch) -> None:
+    plans, took = past_a_tree(0.1)
+    monkeypatch.setattr(evaluation, "LARGE_LACK", 0.0)  # all units are as large as the violations
+    chase._horizon.cache_clear()
+    same, more = past_a_tree(0.1)
+    chase._horizon.cache_clear()
+    assert max(np.abs(a.places - b.places).max() for a, b in zip(plans, same, strict=True)) < 2e-3
+    assert max(took) <= 8 < max(more)
+    assert sum(took) < 0.95 * sum(more)
 
 
 def test_who_lacks_much_is_solved_in_few_iterations_too(in_metres) -> None:

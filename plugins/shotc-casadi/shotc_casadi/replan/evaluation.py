@@ -18,6 +18,9 @@ import numpy as np
 from shotc.plugin_api.replanner import Array
 from shotc_casadi.replan.layout import Index, Pattern, Places, ProgramMatrices, layout
 
+LARGE_LACK = 1.0
+"""Metres or m/s of a violation, above which a step does not end it."""
+
 
 class StageExpressions(NamedTuple):
     """One stage in symbols.
@@ -242,14 +245,16 @@ def _with_slack(of: Any, s: StageExpressions, slack: Any) -> Any:
 
 
 def _unit(prices: Prices, lack: Any, late: Any) -> Any:
-    """Return the units of slacks, groups by stages: the violation there, but at least what costs 1.
+    """Return the units of slacks, groups by stages: what costs 1, or the violation there if it is large.
 
     An interior-point method starts with a dual residual equal to the price of a unit, and with slacks of a
-    few units. Compared to metres, this halves the iterations if nothing is violated, and needs no more if
-    much is.
+    few units. Small violations of the current motion end at 0 in most programmes: what costs 1 then takes 7
+    iterations near an obstacle, units as large as the violations take 10, and metres twice as many. Large
+    violations remain for a while (a drone that is too fast), and would take thousands of small units.
     """
     least = ca.repmat(1.0 / ca.DM(prices.lacking), 1, lack.size2())
-    return ca.fmax(ca.vertcat(ca.horzcat(lack[0, :-1], ca.fmax(lack[0, -1], late)), lack[1:, :]), least)
+    violation = ca.vertcat(ca.horzcat(lack[0, :-1], ca.fmax(lack[0, -1], late)), lack[1:, :])
+    return ca.fmax(violation * (violation > LARGE_LACK), least)
 
 
 def _each(unit: Any, counts: Sequence[int], ends: int) -> Any:
