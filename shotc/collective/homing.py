@@ -131,6 +131,8 @@ class Homing:
         """Return the whole flight from the time of a return on: breaks (P + 1,) and control points (n, P + 3,
         3).
         """
+        if fleet_return.track is None and time <= self._lifted:  # it does not take off any more
+            return np.array([time, time + 1.0]), np.repeat(self.flight.coef[:, :1], DEGREE + 1, axis=1)
         planned = rest_of(self.flight.breaks, self.flight.coef, time)
         if fleet_return.track is None:
             return planned

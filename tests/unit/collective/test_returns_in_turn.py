@@ -9,6 +9,7 @@ import pytest
 
 from shotc import collective
 from shotc.collective import collective_returns
+from shotc.collective.homing import Homing
 from shotc.geom.fleet_spline import places
 from tests.support.compiled import compiled_text
 from tests.support.grouped_shows import ACROSS, CROSSING, least_between
@@ -53,6 +54,19 @@ def test_groups_whose_ways_home_cross_give_way_to_each_other(monkeypatch: pytest
     alone = next(r for r in collective_returns(plan, AT_S, lambda _: None) if r.time == AT_S)
     assert not alone.holds
     assert {claim.constraint for claim in alone.broken} == {"separation from swarm/ring"}
+
+
+def test_a_fleet_that_has_not_taken_off_stays_on_its_pads() -> None:
+    plan = compiled_text(FLARE).plan
+    assert plan is not None
+    for flight in plan.trajectory.fleets:
+        homing = Homing(plan.trajectory, flight)
+        moved = int(np.argmax((flight.coef != flight.coef[:, :1]).any(axis=(0, 2))))
+        time = 0.5 * float(flight.breaks[moved - 3])
+        assert time > 0.0
+        breaks, coef = homing.flown(time, homing.at(time))
+        at = places(breaks, coef, np.linspace(breaks[0], breaks[-1], 20))
+        np.testing.assert_allclose(at, np.repeat(flight.coef[:, :1], 20, axis=1), atol=1e-12)
 
 
 def test_a_fleet_on_its_way_home_keeps_clear_of_what_burns_on_another(

@@ -140,6 +140,7 @@ def test_a_swell_is_led_past_what_stands_and_all_of_it_is_proved(solid: Cylinder
     assert any("mast" in claim.constraint for claim in claims)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_wall_between_two_pictures_is_told_with_what_is_missing() -> None:
     wall = box((15.0, 0.0, 45.0), (1.0, 4000.0, 90.0), 0.0)
