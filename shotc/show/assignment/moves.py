@@ -8,28 +8,34 @@ from math import ceil, inf, isfinite
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.apart import kept as keeps
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
+from shotc.geom.separation import closest
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING
-from shotc.ir.show import Fleet, Picture
+from shotc.ir.show import Apart, Fleet, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room, no_way_over
+from shotc.show.assignment.order import CONTROL_DECIMALS
 from shotc.show.assignment.over import LiftedCandidate, MoveSurroundings, MoveTask, over
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import Ends, Heights, led
+from shotc.show.assignment.swell import Ends, Heights, lack_of, led
 from shotc.show.geom.arcs import Free, Gaps
-from shotc.show.geom.least_size import ROUNDING, least_size
+from shotc.show.geom.least_size import ROUNDING, LeastSize, least_size
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.goals.room import DisplaySurroundings, RoomLack, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.lifted_move import Course
 from shotc.show.solvers.move import fastest
+from shotc.show.solvers.own_heights import OwnHeightsTask, own_heights
 
 HEIGHT_TRIES = 4
 """Most greatest heights that are tried for the help of a fault."""
 MARGIN_SHARE = 5e-4
 """Share by which arcs keep more than the separation, if both formations do: half of ``apart.ROOMIER``."""
+MOST_OWN_HEIGHTS = 5000
+"""Most drones whose heights have scalars of their own: the search takes 20 s of CPU for so many."""
 
 
 class Mover:
@@ -152,7 +158,22 @@ class Mover:
         def about(pivot: Array) -> ArcMove:
             return fastest_arc(ends, pivot, kept, self.fleet.limits, pace, easing)
 
-        return led(ends, self.sky.heights, surroundings, about)
+        move, lack = led(ends, self.sky.heights, surroundings, about)
+        own = isinstance(kept, LeastSize) and easing == "ease-in-out" and len(ends[0]) <= MOST_OWN_HEIGHTS
+        if own and lack.metres <= ROUNDING_M:
+            faster = self._own_heights(ends, move.pivot, pace)
+            if faster is not None and faster.duration < move.duration:
+                swell = lack_of(ends, self.sky.heights, surroundings, faster)
+                return (faster, swell) if swell.metres <= ROUNDING_M else (move, lack)
+        return move, lack
+
+    def _own_heights(self, ends: Ends, pivot: Array, pace: float) -> ArcMove | None:
+        """Return a move whose heights have scalars of their own, proved to keep the separation, or None."""
+        apart = self.fleet.apart
+        scale = self._scale / (apart.across * (1.0 + MARGIN_SHARE))
+        heights = self.sky.heights.beside(ends)
+        move = own_heights(OwnHeightsTask(ends, scale, self.fleet.limits, pace, heights), pivot)
+        return move if move is not None and _proved(ends, move, apart) else None
 
     def _free(self, ends: Ends) -> Free | None:
         """Return the free region of the two scalars of a common move; None if straight paths keep the
@@ -167,6 +188,14 @@ class Mover:
             return None
         # Formations at exactly the separation, for example on pads, have no share to spare.
         return _gaps(least, max(apart.across, min(apart.across * (1.0 + MARGIN_SHARE), *least)))
+
+
+def _proved(ends: Ends, move: ArcMove, apart: Apart) -> bool:
+    """Return whether all drones keep the separation on a move as it is written, at every time."""
+    between = [np.round(points, CONTROL_DECIMALS) for points in move.between(*ends)]
+    coef = np.stack([*[ends[0]] * 3, *between, *[ends[1]] * 3], axis=1)
+    breaks = np.linspace(0.0, move.duration, move.pieces + 1)
+    return keeps(closest(breaks, coef, apart).proven, apart.across)
 
 
 def _gaps(least: list[float], kept: float) -> Gaps:

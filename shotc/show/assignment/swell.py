@@ -51,7 +51,7 @@ class Heights:
 
     def lack(self, ends: Ends, ctrl: Array, pivot: Array) -> float:
         """Return the lack of height by the closed-form bound; the formations' own lack is not counted."""
-        low, high = self._of(ends)
+        low, high = self.beside(ends)
         before, after = (e[:, 2] - pivot[2] for e in ends)
         down = float((ctrl @ [before.min(), after.min()]).min()) + pivot[2]
         up = float((ctrl @ [before.max(), after.max()]).max()) + pivot[2]
@@ -59,7 +59,7 @@ class Heights:
 
     def pivot(self, ends: Ends, ctrl: Array, height: float) -> float:
         """Return the height of c nearest to the wanted one that keeps both heights, or the lower one."""
-        low, high = self._of(ends)
+        low, high = self.beside(ends)
         swell = 1.0 - ctrl.sum(axis=1)
         out = swell < -1e-6
         (l0, l1), (h0, h1) = ((e[:, 2].min() for e in ends), (e[:, 2].max() for e in ends))
@@ -70,7 +70,8 @@ class Heights:
         least = least if least == -np.inf else SAFE_SHARE * least + (1.0 - SAFE_SHARE) * max(h0, h1)
         return min(max(height, least), most)
 
-    def _of(self, ends: Ends) -> tuple[float, float]:
+    def beside(self, ends: Ends) -> tuple[float, float]:
+        """Return the lowest and the highest z for a move between two formations, which keep their own."""
         lowest = min(float(e[:, 2].min()) for e in ends)
         highest = max(float(e[:, 2].max()) for e in ends)
         return min(self.low, lowest), max(self.high, highest)
@@ -85,7 +86,7 @@ def led(
     """
     best: tuple[ArcMove, RoomLack] | None = None
     for move in _tries(ends, heights, surroundings, fastest):
-        lack = _lack(ends, heights, surroundings, move)
+        lack = lack_of(ends, heights, surroundings, move)
         if lack.metres <= ROUNDING_M:
             return move, lack
         if best is None or lack.metres < best[1].metres:
@@ -101,7 +102,7 @@ def _tries(
     middle = 0.25 * sum((e.min(axis=0) + e.max(axis=0) for e in ends), np.zeros(3))
     first = _level(ends, heights, fastest, middle)
     yield first
-    lack = _lack(ends, heights, surroundings, first)
+    lack = lack_of(ends, heights, surroundings, first)
     if isinstance(lack.of, Clearance):
         for shift in sorted(_shifts(ends, first, lack), key=lambda shift: float(np.linalg.norm(shift))):
             yield _level(ends, heights, fastest, first.pivot - shift)
@@ -128,20 +129,21 @@ def _shifts(ends: Ends, move: ArcMove, lack: RoomLack) -> Iterator[Array]:
 def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pivot: Array) -> ArcMove:
     """Return the move about a point or above or below it, whichever lacks least height."""
     move = best = fastest(pivot)
-    lack = least = heights.lack(ends, move.ctrl, move.pivot)
+    lack = least = heights.lack(ends, move.heights, move.pivot)
     for _ in range(HEIGHT_LEVELS):
         if lack <= ROUNDING_M:
             return move
         # Arcs about another point differ, and may need it lower or higher still.
-        move = fastest(np.array([*pivot[:2], heights.pivot(ends, move.ctrl, float(pivot[2]))]))
-        lack = heights.lack(ends, move.ctrl, move.pivot)
+        move = fastest(np.array([*pivot[:2], heights.pivot(ends, move.heights, float(pivot[2]))]))
+        lack = heights.lack(ends, move.heights, move.pivot)
         if lack < least:
             best, least = move, lack
     return best
 
 
-def _lack(ends: Ends, heights: Heights, surroundings: DisplaySurroundings, move: ArcMove) -> RoomLack:
-    worst = RoomLack(heights.lack(ends, move.ctrl, move.pivot), None)
+def lack_of(ends: Ends, heights: Heights, surroundings: DisplaySurroundings, move: ArcMove) -> RoomLack:
+    """Return a move's largest lack of height or of clearance, proved."""
+    worst = RoomLack(heights.lack(ends, move.heights, move.pivot), None)
     boxes = _boxes(ends, move)
     flown: FleetPieces | None = None
     for obstacle in surroundings.obstacles:
@@ -160,7 +162,8 @@ def _lack(ends: Ends, heights: Heights, surroundings: DisplaySurroundings, move:
 def _boxes(ends: Ends, move: ArcMove) -> Array:
     """Return boxes, one for each piece, which contain all drones, shape (K, 2, 3)."""
     reach = [(e.min(axis=0) - move.pivot, e.max(axis=0) - move.pivot) for e in ends]
-    boxes = [np.einsum("k,cd->kcd", move.ctrl[:, k], np.array(reach[k])) for k in range(2)]
+    scalars = np.stack([move.ctrl, move.ctrl, move.heights], axis=-1)
+    boxes = [np.einsum("kd,cd->kcd", scalars[:, k], np.array(reach[k])) for k in range(2)]
     corners = boxes[0] + boxes[1] + move.pivot
     # A piece lies in the hull of four consecutive control points, and so in the box around their boxes.
     windows = np.lib.stride_tricks.sliding_window_view(corners, 4, axis=0)

@@ -18,7 +18,8 @@ The shortest path in the plane of (a, b) from (1, 0) to (0, 1) that is nowhere s
 points of the bound at which it would turn right are left out. Two drones side by side before and one above
 the other after need a = 1 until b is 1, if both pictures are as dense as possible. The reverse holds for b.
 The string then passes through (1, 1) and has length 2, while straight paths have sqrt 2. This is the minimum
-for common scalars for all three axes.
+for common scalars for all three axes. ``solvers.own_heights`` finds shorter moves by other scalars for the
+heights.
 """
 
 from __future__ import annotations

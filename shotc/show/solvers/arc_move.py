@@ -51,6 +51,8 @@ class ArcMove:
     """A common move on arcs.
 
     ctrl : control points of (a, b), shape (P + 3, 2), the first three (1, 0) and the last three (0, 1)
+    heights : those of the scalars of the heights, shape (P + 3, 2); the same unless ``solvers.own_heights``
+        found better ones
     pivot : the point c, shape (3,), m
     piece : duration of each of the P pieces, s
     limit : name in ``ir.limits.Limits`` of the active limit
@@ -58,6 +60,7 @@ class ArcMove:
     """
 
     ctrl: Array
+    heights: Array
     pivot: Array
     piece: float
     limit: str
@@ -76,7 +79,8 @@ class ArcMove:
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""
         away, there = starts - self.pivot, goals - self.pivot
-        return [self.pivot + a * away + b * there for a, b in self.ctrl[3:-3]]
+        scalars = np.stack([self.ctrl, self.ctrl, self.heights], axis=-1)
+        return [self.pivot + a * away + b * there for a, b in scalars[3:-3]]
 
 
 def fastest_arc(
@@ -101,7 +105,7 @@ def fastest_arc(
         ctrl = np.concatenate([ctrl[:3], ctrl[3:-3] / least, ctrl[-3:]])
     binding = drones.binding(ctrl)
     piece = float(np.ceil(binding.piece / TICK_S) * TICK_S)
-    return ArcMove(ctrl, pivot, piece, binding.limit, binding.drone)
+    return ArcMove(ctrl, ctrl, pivot, piece, binding.limit, binding.drone)
 
 
 def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
@@ -147,10 +151,12 @@ def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drones:
-    """Drones by their start and end relative to the pivot, shape (n, 3) each, and their limits."""
+    """Drones, each at the sum of its parts times scalars that all have in common, and their limits.
 
-    away: Array
-    there: Array
+    parts : shape (n, 3) each, m; of a move with two scalars, start and end relative to the pivot
+    """
+
+    parts: tuple[Array, ...]
     ceilings: tuple[float, float, float, float, float]
 
     @staticmethod
@@ -159,7 +165,7 @@ class Drones:
         scale = LIMIT_SHARE * pace
         most = (limits.speed, limits.climb, limits.descent, limits.usable_acceleration, limits.jerk)
         speed, climb, descent, acceleration, jerk = (scale * m for m in most)
-        return Drones(ends[0] - pivot, ends[1] - pivot, (speed, climb, descent, acceleration, jerk))
+        return Drones((ends[0] - pivot, ends[1] - pivot), (speed, climb, descent, acceleration, jerk))
 
     def busiest(self) -> Drones:
         """Return the drones of which one is always the busiest, whatever the path; the others are never
@@ -167,24 +173,38 @@ class Drones:
         """
         kept: set[int] = set()
         for a, b in angles(DIRECTION_COUNT):
-            rates = a * self.away + b * self.there
+            rates = a * self.parts[0] + b * self.parts[1]
             level = np.einsum("nd,nd->n", rates[:, :2], rates[:, :2])
             whole = level + rates[:, 2] ** 2
             kept |= {int(level.argmax()), int(whole.argmax())}
             kept |= {int(rates[:, 2].argmax()), int(rates[:, 2].argmin())}
-        rows = sorted(kept)
-        return Drones(self.away[rows], self.there[rows], self.ceilings)
+        return self.of_rows(sorted(kept))
+
+    def of_rows(self, rows: list[int]) -> Drones:
+        """Return the drones of some rows."""
+        return Drones(tuple(part[rows] for part in self.parts), self.ceilings)
+
+    def with_own_heights(self) -> Drones:
+        """Return the drones of a move with two scalars by four: of (a, b), and of the heights' own (a, b)."""
+        level, upright = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+        return Drones(tuple(part * axes for axes in (level, upright) for part in self.parts), self.ceilings)
+
+    def busiest_on(self, rates: Array, order: int) -> set[int]:
+        """Return the rows of the drones that need the largest share of a limit for one of some derivatives,
+        (N, S).
+        """
+        return set(self._shares(rates, order).argmax(axis=1).ravel().tolist())
 
     def shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:
-        """Return the largest share of a limit that a derivative of (a, b), shape (..., 2), needs for any
-        drone.
+        """Return the largest share of a limit that a derivative of the scalars, shape (..., S), needs for
+        any drone.
 
         rising : the same derivative of an additional height, shape (...)
         """
         return np.asarray(self._shares(rates, order, rising).max(axis=(-2, -1)))
 
     def least_pieces(self, ctrl: Array, lift: Array | None = None) -> Array:
-        """Return the least duration of a piece for control points (..., K, 2), s.
+        """Return the least duration of a piece for control points (..., K, S), s.
 
         lift : control points (..., K) of an additional height of all drones, m
         """
@@ -219,7 +239,9 @@ class Drones:
 
         rising : the same derivative of an additional height of all drones, shape (...), m
         """
-        moved = rates[..., None, :1] * self.away + rates[..., None, 1:] * self.there
+        moved = rates[..., None, :1] * self.parts[0]
+        for k, part in enumerate(self.parts[1:], 1):
+            moved += rates[..., None, k : k + 1] * part
         if rising is not None:
             moved[..., 2] += np.asarray(rising)[..., None]
         if order == 1:

@@ -11,9 +11,9 @@ from tests.experiments.dense import APARTS, moves
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("shape", "slower"), [("ellipsoid", 1.3), ("cylinder", 1.7)])
-def test_dense_pictures_follow_each_other_and_keep_apart(shape: str, slower: float) -> None:
+@pytest.mark.parametrize("shape", ["ellipsoid", pytest.param("cylinder", marks=pytest.mark.long)])
+def test_dense_pictures_follow_each_other_and_keep_apart(shape: str) -> None:
     apart = APARTS[shape]
     for move in moves(300, 0, apart):
         assert move.proven >= apart.across
-        assert move.seconds <= slower * move.straight
+        assert move.seconds <= 1.3 * move.straight

@@ -60,6 +60,21 @@ def test_cylinders_take_arcs_where_a_pair_asks_for_them(step: float, arc: bool) 
     assert kept(closest(breaks, coef, UPRIGHT).proven, 1.5)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("easing", "own"), [("ease-in-out", True), ("linear", False)])
+def test_heights_of_cylinders_have_scalars_of_their_own_unless_an_easing_is_asked_for(
+    easing: str, own: bool
+) -> None:
+    asked = picture(Sphere((0.0, 0.0, 60.0), 5.0))._replace(easing=easing)  # type: ignore[arg-type]
+    swarm = fleet(30, UPRIGHT)
+    mover = Mover(show(display(asked), swarm).mission, swarm)
+    lying = sheet(1.5, 0.0)
+    standing = lying[:, [2, 1, 0]] * (1.0, 1.0, 2.5 / 1.5) + (0.0, 0.0, 60.0)
+    move = mover.move(lying + np.array([0.0, 0.0, 20.0]), standing, 1.0, asked)
+    assert isinstance(move, ArcMove)
+    assert (not np.array_equal(move.ctrl, move.heights)) == own
+
+
 @pytest.mark.parametrize("path", ["straight", "arc"])
 def test_a_picture_is_come_to_by_its_easing(path: str) -> None:
     plain = picture(Sphere((0.0, 0.0, 60.0), 5.0))._replace(transition_path=path)  # type: ignore[arg-type]

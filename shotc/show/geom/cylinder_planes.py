@@ -1,0 +1,142 @@
+"""Half-planes of a move's scalars in which drones keep vertical cylinders free, one for each pair and time.
+
+Two drones at r0 from each other before a move and at r1 after it are at a r0 + b r1 across and at a' r0 + b'
+r1 upright during it, with scalars a, b that are common to all drones, and a', b' of the heights
+(``solvers.own_heights``). They keep a cylinder of radius and half height 1 free if they are at least 1 apart
+across or at least 1 apart upright. With the horizontal unit vector n, or with the sign s,
+
+ a n.r0 + b n.r1 >= 1    or    a' s z0 + b' s z1 >= 1
+
+are sufficient. Both are half-planes of two scalars. Where a motion is known, n and s are the directions in
+which the two are apart on it, and the larger distance chooses between the two.
+
+Of the half-planes of all pairs at one time few are needed. As scalars are never negative, these are the lower
+left corners of the convex hull of all normals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+
+Index = NDArray[np.intp]
+
+SMALL = 1e-12
+"""Distance below which a direction is arbitrary."""
+REACH_RATIO = 1.5
+"""Distance, in units of the separation, from which on a pair asks for nothing. A motion that is found without
+such a pair is judged by it in the next round.
+"""
+
+
+class CylinderPlanes(NamedTuple):
+    """Half-planes normal . (a, b) >= 1 at times of a motion.
+
+    at : number of the time of each, shape (R,)
+    normals : shape (R, 2)
+    upright : whether a and b are the scalars of the heights, shape (R,)
+    least : the least distance of two drones at these times, at most ``REACH_RATIO``
+    """
+
+    at: Index
+    normals: Array
+    upright: NDArray[np.bool_]
+    least: float
+
+
+def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlanes:
+    """Return the half-planes that keep all pairs apart about a motion.
+
+    before, after : positions, shape (n, 3), heights scaled, in units of the separation
+    scalars : a, b and those of the heights at rising times, shape (2 T + 1, 4). The even rows are the times
+        of the half-planes. In the odd row between two of them it is decided whether a pair is apart across
+        or upright, for both: a pair that changed between them would be apart in neither.
+    """
+    motion = _Motion(before, after, scalars)
+    found: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
+    least = REACH_RATIO
+    for middle in range(1, len(scalars), 2):
+        near = motion.near(middle)
+        across, along = motion.distances(middle, near)
+        flat = across >= along
+        least = min(least, float(np.maximum(across, along).min(initial=REACH_RATIO)))
+        for time in (middle - 1, middle + 1):
+            least = min(least, float(np.maximum(*motion.distances(time, near)).min(initial=REACH_RATIO)))
+            found[time // 2][0].append(motion.normals(time, near[flat], slice(0, 2)))
+            found[time // 2][1].append(motion.normals(time, near[~flat], slice(2, 3)))
+    rows = [
+        (time, upright, _needed(np.concatenate(both[upright])))
+        for time, both in enumerate(found)
+        for upright in (0, 1)
+    ]
+    count = [len(normals) for _, _, normals in rows]
+    return CylinderPlanes(
+        np.repeat(np.array([time for time, _, _ in rows], dtype=np.intp), count),
+        np.concatenate([normals for _, _, normals in rows]),
+        np.repeat(np.array([bool(upright) for _, upright, _ in rows]), count),
+        least,
+    )
+
+
+def least_before_and_after(before: Array, after: Array) -> float:
+    """Return the least distance of two drones in two formations, at most 1; arguments as above."""
+    motion = _Motion(before, after, np.array([[1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]]))
+    return min(float(np.maximum(*motion.distances(k, motion.near(k))).min(initial=1.0)) for k in (0, 1))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Motion:
+    """Positions of all drones by their scalars; the arguments of ``cylinder_planes``."""
+
+    before: Array
+    after: Array
+    scalars: Array
+
+    def near(self, time: int) -> Index:
+        """Return the pairs within reach of each other, shape (P, 2)."""
+        row = self.scalars[time]
+        places = self.before * row[[0, 0, 2]] + self.after * row[[1, 1, 3]]
+        return np.asarray(cKDTree(places).query_pairs(REACH_RATIO, p=np.inf, output_type="ndarray"))
+
+    def distances(self, time: int, pairs: Index) -> tuple[Array, Array]:
+        """Return the horizontal and the vertical distance of pairs, shape (P,) each."""
+        gap = self._gap(time, *self._ends(pairs))
+        return np.hypot(gap[:, 0], gap[:, 1]), np.abs(gap[:, 2])
+
+    def normals(self, time: int, pairs: Index, axes: slice) -> Array:
+        """Return (n.r0, n.r1) for the direction n of each pair in some axes, shape (P, 2)."""
+        r0, r1 = self._ends(pairs)
+        n = self._gap(time, r0, r1)[:, axes]
+        n = n / np.maximum(np.linalg.norm(n, axis=1), SMALL)[:, None]
+        return np.stack([np.einsum("pd,pd->p", n, r[:, axes]) for r in (r0, r1)], axis=1)
+
+    def _ends(self, pairs: Index) -> tuple[Array, Array]:
+        before, after = (p[pairs[:, 0]] - p[pairs[:, 1]] for p in (self.before, self.after))
+        return before, after
+
+    def _gap(self, time: int, r0: Array, r1: Array) -> Array:
+        row = self.scalars[time]
+        return np.asarray(r0 * row[[0, 0, 2]] + r1 * row[[1, 1, 3]])
+
+
+def _needed(normals: Array) -> Array:
+    """Return the normals (K, 2) that imply all others for scalars that are not negative."""
+    normals = normals[np.lexsort((normals[:, 1], normals[:, 0]))]
+    lower = normals[:, 1] < np.minimum.accumulate(np.append(np.inf, normals[:, 1]))[:-1]
+    hull: list[Array] = []
+    for point in normals[lower]:
+        while len(hull) > 1 and _above(hull[-2], hull[-1], point):
+            hull.pop()
+        hull.append(point)
+    return np.array(hull).reshape(-1, 2)
+
+
+def _above(a: Array, b: Array, c: Array) -> bool:
+    """Return whether b is on or above the line from a to c."""
+    return bool((b[0] - a[0]) * (c[1] - a[1]) <= (b[1] - a[1]) * (c[0] - a[0]))
