@@ -7,7 +7,7 @@ from math import hypot
 
 from shotc.geom.line_of_sight import crosses
 from shotc.geom.shapes import bodies_of, touch
-from shotc.geom.solids import depth, distance
+from shotc.geom.solids import signed_distance
 from shotc.geom.vec import Vec3, minus, plus
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -45,15 +45,13 @@ def without_room(mission: MissionIR, drone: Drone, eyes: Sequence[tuple[float, V
 
 def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
     for zone in mission.zones:
-        if zone.keep == "out":
-            lack = drone.radius - distance(zone.solid, p)
-        else:
-            lack = drone.radius - depth(zone.solid, p)
+        beyond = signed_distance(zone.solid, p)
+        lack = drone.radius + (beyond if zone.keep == "in" else -beyond)
         if lack > ROUNDING_M:
             yield zone_owner(zone), lack
     need = mission.rules.beside_target(drone.radius)
     for target in mission.targets:
-        lack = need - distance(target.kept_clear_at(t), p)
+        lack = need - signed_distance(target.kept_clear_at(t), p)
         if lack > ROUNDING_M:
             yield target_owner(target), lack
 

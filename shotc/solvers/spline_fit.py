@@ -89,13 +89,21 @@ def _unbounded(task: Fit) -> Array:
 
     matrix, rhs = _least_squares(task)
     size = matrix.shape[1]
-    normal = matrix.T @ matrix
     binding, bound = _anchors(task)
-    if not len(bound):
-        return np.asarray(spsolve(normal.tocsc(), matrix.T @ rhs))
-    anchors = scalar_map(binding, size)
-    system = bmat([[normal, anchors.T], [anchors, None]], format="csc")
+    fixed = scalar_map(binding, size) if len(bound) else _mean(task, size)
+    bound = bound if len(bound) else np.array([np.average(task.value, weights=task.weight)])
+    system = bmat([[matrix.T @ matrix, fixed.T], [fixed, None]], format="csc")
     return np.asarray(spsolve(system, np.concatenate([matrix.T @ rhs, bound]))[:size])
+
+
+def _mean(task: Fit, size: int) -> Any:
+    """Return the row of the samples' weighted mean, (1, P + 5).
+
+    A constant has no energy, so the mean of the optimum is that of the values. Without anchors, this equation
+    keeps the system regular where the weights are tiny beside the stiffness.
+    """
+    samples = scalar_map(value_rows(task.breaks, task.at), size)
+    return (samples.T @ (task.weight / task.weight.sum()))[None]
 
 
 def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:

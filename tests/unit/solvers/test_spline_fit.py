@@ -1,10 +1,12 @@
-"""Points moved into their bounds."""
+"""A smooth spline fitted to samples, and points moved into their bounds."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from shotc.solvers.spline_fit import TOUCH_TOLERANCE, within
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import TOUCH_TOLERANCE, Fit, fit, within
 
 
 def test_what_is_out_of_its_bounds_is_moved_to_them_and_rounding_is_left() -> None:
@@ -26,3 +28,18 @@ def test_every_point_has_bounds_of_its_own() -> None:
     points = np.array([[0.0, 5.0], [0.0, 5.0]])
     low, high = np.array([[-1.0, 6.0], [1.0, 0.0]]), np.array([[1.0, 7.0], [2.0, 4.0]])
     assert within(points, low, high).tolist() == [[0.0, 6.0], [1.0, 4.0]]
+
+
+@pytest.mark.parametrize("length", [0.05, 2.4, 40.0, 3000.0])
+@pytest.mark.parametrize("pieces", [2, 20, 60])
+def test_values_that_hardly_weigh_pull_a_curve_without_anchors_to_their_mean(
+    length: float, pieces: int
+) -> None:
+    """A short stiff leg once gave a singular system, whose solution was not a number."""
+    breaks = np.linspace(0.0, length, pieces + 1)
+    at = (breaks[:-1] + breaks[1:]) / 2
+    value, weight = np.sin(np.arange(pieces)), np.full(pieces, 1e-14 / length)
+    none, stiff = np.empty(0), (1.0, min(4.0, length) ** 4)
+    status, coef = fit(Fit(breaks, at, value, weight, none, none, stiff))
+    assert status is Status.SOLVED
+    assert np.abs(coef - value.mean()).max() < 1e-6

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import atan2, degrees, hypot
 
 import numpy as np
@@ -18,6 +19,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.sampling import seen
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
+from shotc.spec.presets import PRESETS
 from tests.support.compiled import compiled_text
 from tests.support.few import few
 from tests.support.framing_missions import claim, planned, text
@@ -279,6 +281,24 @@ def test_a_view_into_a_zone_is_told_and_a_free_one_goes_beside_it() -> None:
     assert "hall" in found.notes[0]
     free = told(text("target: tower, size: 0.6", world=world))
     assert [d.code for d in free] == ["G023"] * 2  # who walks comes into the hall
+
+
+@pytest.mark.parametrize(
+    ("zone", "surface"),
+    [
+        ("{keep: out, box: {center: [30, 10, 50], size: [100, 40, 200]}}", 30.0),
+        ("{keep: in, box: {center: [30, 40, 50], size: [100, 40, 100]}}", 20.0),
+    ],
+)
+def test_what_a_place_lacks_counts_from_the_drones_side_of_a_zone(zone: str, surface: float) -> None:
+    """The camera is deep inside a zone to keep out of, or far outside of one to stay in."""
+    world = f"world: {{zones: {{hall: {zone}}}}}\n"
+    mission = text("target: tower, size: 0.8, view: {azimuth: 180 deg}", world=world)
+    (fault,) = (d for d in told(mission) if d.code == "M032")
+    numbers = re.search(r"at \[30\.0, ([\d.]+), 12\.0\], where zone `hall` lacks ([\d.]+) m", fault.notes[0])
+    assert numbers is not None
+    place, lack = map(float, numbers.groups())
+    assert lack == pytest.approx(PRESETS["x500"].radius + abs(place - surface), abs=0.06)
 
 
 def test_a_view_that_the_gimbal_does_not_reach_is_told() -> None:
