@@ -14,7 +14,7 @@ from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
 from shotc.passes.resolve.lower.files import FileReader, Files
 from shotc.passes.resolve.lower.recordings import read_recording
-from shotc.simulation.conditions import Outage
+from shotc.simulation.outages import Outage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -4,26 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 from zlib import crc32
 
 import numpy as np
 
 from shotc.ir.rehearsal import Loop, VehicleName
+from shotc.simulation.outages import Outage
 from shotc.simulation.sensors import RTK, Detector, Gps, Interval
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import WindField
-
-
-class Outage(NamedTuple):
-    """An interval without satellite positions, seconds of mission time.
-
-    who : name of the drone or target that has none; "" for all of them
-    """
-
-    start: float
-    end: float
-    who: str = ""
 
 
 @dataclass(frozen=True, slots=True)

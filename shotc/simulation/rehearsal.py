@@ -14,8 +14,9 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.rehearsal import Loop, Receiver, Rehearsal, RehearsalPromise, VehicleName, Wind
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
-from shotc.simulation.conditions import Conditions, Outage
+from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
+from shotc.simulation.outages import Outage
 from shotc.simulation.runs import RunBlock, Strays
 from shotc.simulation.sensors import GRADES
 from shotc.simulation.truth import Truth

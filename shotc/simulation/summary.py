@@ -11,9 +11,9 @@ import numpy as np
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import as_minutes, at_least, at_most, plain, up
-from shotc.simulation.conditions import Outage
 from shotc.simulation.fleets.near import ClosestPair
 from shotc.simulation.judge import Run, TargetFraming, TrackingError
+from shotc.simulation.outages import Outage
 from shotc.simulation.rehearsal import Rehearsed, alike
 from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.situations import replanned

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -255,7 +256,10 @@ def test_what_burns_on_the_ground_is_led_into_the_air(plan: VerifiedIR) -> None:
     verdict = judge(replace(ir, keyframes=ir.keyframes._replace(mission=mission)), PassContext())
     (told,) = (d for d in verdict.diagnostics if d.code == "V059")
     assert told.help is not None
-    assert told.help.startswith("have it burn between take-off and landing")
+    written = re.fullmatch(r"write `at: ([\d.]+) s`", told.help)
+    assert written is not None
+    breaks = ir.fleets[0].breaks
+    assert breaks[0] <= float(written[1]) <= breaks[-1]
 
 
 def test_the_show_file_fires_what_the_mission_says(plan: VerifiedIR) -> None:

@@ -98,7 +98,7 @@ CODES: tuple[CodeInfo, ...] = (
         "The time from lift-off to touch-down counts, with all displays, the ways between them, and the way "
         "home. Waiting on the pads does not.",
         _PASSING,
-        ("model: show-drone,", "model: show-drone, endurance: 40 s,"),
+        ("model: show-drone,", "model: show-drone, endurance: 60 s,"),
     ),
     _planned(
         "D083",
