@@ -35,13 +35,13 @@ demo: $(STAMP) ## Plan a real mission and say where to look at it
 	$(BIN)/shotc plan specs/westerhever-lighthouse.yaml
 	@echo "  look      out/westerhever-lighthouse/storyboard.png, or play it: $(BIN)/shotc view out/westerhever-lighthouse/plan.json"
 
-test: $(STAMP) ## Run the tests that are not marked long, in five minutes
+test: $(STAMP) ## Run the tests that are not marked long
 	$(PYTEST) -m "not long and not fuzz"
 
 test-all: $(STAMP) ## Run every test
 	$(PYTEST)
 
-test-fast: $(STAMP) ## Run the tests that are marked neither slow nor long, in a minute
+test-fast: $(STAMP) ## Run the tests that are marked neither slow nor long
 	$(PYTEST) -m "not slow and not long and not fuzz"
 
 fuzz: $(STAMP) ## Plan 300 drawn missions, run the long cases, and every property test with new random numbers
