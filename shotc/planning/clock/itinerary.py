@@ -23,17 +23,10 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
 from shotc.planning.clock.detours import Meanwhile, Transit, ways_home, ways_to
+from shotc.planning.clock.ends import END_REQUIREMENTS, FROM_AFAR, EndRequirement, leading_aside
 from shotc.planning.clock.flights import flight
 from shotc.planning.clock.run_up import lead_in, way_time
-from shotc.planning.clock.shot import (
-    ASKED,
-    FROM_AFAR,
-    EndRequirement,
-    NoMotion,
-    OtherVehicles,
-    leading_aside,
-    timed_shot,
-)
+from shotc.planning.clock.shot import NoMotion, OtherVehicles, timed_shot
 from shotc.planning.clock.starts import (
     SLIGHT_M,
     ClockFailure,
@@ -262,12 +255,8 @@ class Itinerary:
         if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
-            start = inside(
-                self.mission,
-                self.flight.space,
-                placed,
-                max(ready, self.clock + before, self._track_start(placed)),
-            )
+            ready = max(ready, self.clock + before, self._track_start(placed))
+            start = inside(self.mission, self.flight.space, placed, ready)
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
                 film_start = reached.shot.leg.start
@@ -349,17 +338,15 @@ class Itinerary:
         short = outside(self.mission, placed, start)
         if short is not None:
             return short
-        near = self._reached_as(placed, start, ASKED)
+        near = self._reached_as(placed, start, END_REQUIREMENTS)
         if not isinstance(near, Reached):
             return near
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
-        tries = (
-            (leading_aside(True, out), FROM_AFAR)
-            if near.transfer.met
-            else (leading_aside(into, out),)
-            if into or out
-            else ()
-        )
+        tries: tuple[tuple[EndRequirement, ...], ...]
+        if near.transfer.met:
+            tries = leading_aside(True, out), FROM_AFAR
+        else:
+            tries = (leading_aside(into, out),) if into or out else ()
         for requirements in tries:
             far = self._reached_as(placed, start, requirements)
             if isinstance(far, Reached) and far.better(near):

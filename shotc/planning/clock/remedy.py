@@ -19,7 +19,7 @@ from shotc.ir.owners import Owner
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.itinerary import Itinerary
-from shotc.planning.clock.shot import ASKED, NoMotion, timed_shot
+from shotc.planning.clock.shot import NoMotion, timed_shot
 from shotc.planning.free_space import FreeSpace, bounds_slack
 from shotc.planning.obstacles import free_spaces_of
 
@@ -123,7 +123,7 @@ def _flown(itinerary: Itinerary, mission: MissionIR, placed: PlacedShot, start: 
     """Return whether a shot has a motion in another mission, and a transfer to it."""
     spaces = free_spaces_of(mission, itinerary.drone)
     task = CameraTask(mission, itinerary.drone, placed.subjects)
-    if isinstance(timed_shot(task, (spaces, itinerary.others), placed, start, ASKED), NoMotion):
+    if isinstance(timed_shot(task, (spaces, itinerary.others), placed, start), NoMotion):
         return False
     flight = replace(itinerary.flight, spaces=spaces)
     return itinerary.copied(mission, flight).film(placed) is None

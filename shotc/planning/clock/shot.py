@@ -13,7 +13,6 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.vec import Vec2
-from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
@@ -27,17 +26,16 @@ from shotc.planning.clock.between import lacking_each
 from shotc.planning.clock.bounds import bounds_of
 from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock, clock_of
+from shotc.planning.clock.ends import END_REQUIREMENTS, EndRequirement, run_up_and_out
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import PositionResult, fly, held_where_it_rests, standing_by
-from shotc.planning.clock.resting import LONG_S, shift_beside_traffic
-from shotc.planning.clock.run_up import RunUp, run_ups
 from shotc.planning.clock.seeing import led_to_see, shown, ways_of
 from shotc.planning.clock.task import ClockTask, led
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
-from shotc.planning.free_space import FreeSpace, breaches
+from shotc.planning.free_space import breaches
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.conic import Status
 
@@ -49,43 +47,8 @@ LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # factors of the duration, tried if 
 ON_PLACE_M = 1e-3  # metres
 SAME_S = 1e-6  # seconds
 SEEING_ROUNDS = 3  # rounds of leading the motion to where targets are visible
-MOST_ASIDES = 2  # searches for a place of rest aside
 STEP_S = 0.1  # seconds between samples of the deviation
 PICTURES = "the pictures of other drones"
-
-
-class EndRequirement(NamedTuple):
-    """Requirements on the ends of a motion.
-
-    stand : seconds that the drone may stand there with all clearances
-    longer : durations of run-up and run-out over the least ones; aside : whether they lead to where nothing
-        passes
-    """
-
-    stand: float
-    longer: float
-    ends_aside: tuple[bool, bool] = (False, False)
-
-
-ASKED = (
-    EndRequirement(3.0, 1.0),
-    EndRequirement(1.0, 1.0),
-    EndRequirement(0.0, 1.0),
-    EndRequirement(0.0, 2.0),
-)
-"""Requirements from strict to weak; the first feasible ones are used."""
-FROM_AFAR = (EndRequirement(3.0, 2.0), EndRequirement(0.0, 2.0), EndRequirement(0.0, 3.0))
-"""The same where no transfer leads to the start of such a motion: it begins farther off."""
-
-
-def leading_aside(before: bool, after: bool) -> tuple[EndRequirement, ...]:
-    """Return requirements with rest away from moving obstacles: before the film, after it, or both."""
-    if not (before or after):
-        return ASKED
-    return tuple(
-        EndRequirement(stand, longer, (before, after))
-        for stand, longer in ((3.0, 1.0), (0.0, 1.0), (0.0, 2.0))
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -162,14 +125,14 @@ def timed_shot(
     around: Around,
     placed: PlacedShot,
     start: float,
-    requirements: tuple[EndRequirement, ...] = ASKED,
+    requirements: tuple[EndRequirement, ...] = END_REQUIREMENTS,
 ) -> TimedShot | NoMotion:
     """Return the motion of a shot whose first frame is at mission time ``start``, or why there is none.
 
     If feasible, nothing passes its first and last place for some seconds before and after, so that a drone
     has time to arrive and leave. The clearances of the transfers are checked separately.
 
-    requirements : requirements on its ends; the first feasible ones are used
+    requirements : of its ends, from strict to weak; the first feasible ones are used
     """
     mission, drone = camera_task.mission, camera_task.drone
     placed = placed_at(mission, placed, start)
@@ -257,8 +220,8 @@ def _flown(
     weaker requirements that deviates much less.
     """
     best, least = None, np.inf
-    for ask in requirements:
-        task = _task(camera_task, around, shot, start, ask)
+    for required in requirements:
+        task = _task(camera_task, around, shot, start, required)
         flown = fly(task)
         if flown.curve is None:
             continue
@@ -271,52 +234,19 @@ def _flown(
 
 
 def _task(
-    camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: EndRequirement
+    camera_task: CameraTask, around: Around, shot: Shot, start: float, required: EndRequirement
 ) -> ClockTask:
-    """Return the task of the position for given requirements."""
+    """Return the task of the position for given requirements of its ends."""
     spaces, others = around
     near = (*standing(spaces), *others.moving)
-    ways = _ways(camera_task, shot, start, ask, (near, spaces.flight))
+    ways = run_up_and_out(camera_task, shot, start, required, (near, spaces.flight))
     clock = clock_of(shot, start, ways, camera_task.drone.lens)
     motions = tuple(linearised(m, clock.breaks) for m in near)
-    passing = standing_by(near, clock.breaks, ask.stand)
+    passing = standing_by(near, clock.breaks, required.stand)
     bound = bounds_of(camera_task.mission, shot, start)
     return led(
         ClockTask(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
     )
-
-
-def _ways(
-    camera_task: CameraTask,
-    shot: Shot,
-    start: float,
-    ask: EndRequirement,
-    around: tuple[tuple[Moving, ...], FreeSpace],
-) -> tuple[RunUp, RunUp]:
-    """Return the run-up and the run-out; around : obstacles and the free space."""
-    end = start + (shot.timing.duration or 0.0)
-    before, after = (
-        run_up.lasting(ask.longer) for run_up in run_ups(camera_task.mission, camera_task.drone, shot, start)
-    )
-    if ask.ends_aside[0]:
-        before = _led(before, -1.0, start, around, camera_task.drone)
-    if ask.ends_aside[1]:
-        after = _led(after, 1.0, end, around, camera_task.drone)
-    return before, after
-
-
-def _led(
-    run_up: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], FreeSpace], drone: Drone
-) -> RunUp:
-    """Return a run-up (sign -1) or a run-out (sign 1) shifted to where nothing passes its place of rest."""
-    led = run_up
-    for _ in range(MOST_ASIDES):  # a longer shift takes longer, which moves the straight end
-        rest = film + sign * led.seconds
-        straight = led.at(np.array([sign * led.seconds]))[0] - led.shift
-        # The span includes the run-up, because an obstacle that passes then would meet the drone.
-        span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
-        led = run_up.led(shift_beside_traffic(*around, straight, span), drone.limits)
-    return led
 
 
 def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -> Missed | None:
@@ -333,7 +263,7 @@ def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -
     for longer in LONGER_RATIOS:
         slower = slowed(task.mission, placed, start, longer)
         camera_task = camera_task_of(task.mission, task.drone, slower, start)
-        if fly(_task(camera_task, around, slower.shot, start, ASKED[-1])).curve is not None:
+        if fly(_task(camera_task, around, slower.shot, start, END_REQUIREMENTS[-1])).curve is not None:
             return Missed(far, longer)
     return Missed(far, None)
 
