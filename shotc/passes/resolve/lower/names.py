@@ -35,10 +35,9 @@ def _show_emitters(spec: MissionSpec) -> tuple[str, ...]:
 
 
 def _film_emitters(spec: MissionSpec) -> tuple[str, ...]:
-    if spec.world.origin is None:  # no place on earth, so there is no mission file to write
-        return tuple(name for name in EMIT if name != "mavlink")
     machines = dict.fromkeys(TAKES[PRESETS[drone.model].autopilot][0] for drone in spec.drones.values())
-    flown = tuple(machines) or ("mavlink",)
+    # Without a place on earth there are no mission files to write.
+    flown = () if spec.world.origin is None else tuple(machines) or ("mavlink",)
     return tuple(name for each in EMIT for name in (flown if each == "mavlink" else (each,)))
 
 
