@@ -15,6 +15,7 @@ from shotc.api import MissionFile
 from shotc.flightfiles.verify import FlightFile, FlightsReport, verify_flights
 from shotc.geom.earth import of_world
 from shotc.ir.mission import GeoOrigin
+from shotc.ir.trajectory import Claim
 
 ORIGIN = GeoOrigin(47.3769, 8.5417, 408.0)
 MISSION = """\
@@ -131,3 +132,8 @@ def verified(
 
 def codes(report: FlightsReport) -> list[str]:
     return [diagnostic.code for diagnostic in report.diagnostics]
+
+
+def claims(report: FlightsReport, end: str) -> list[Claim]:
+    """Return the claims whose constraint ends so."""
+    return [claim for claim in report.certificate if claim.constraint.endswith(end)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
@@ -16,10 +15,8 @@ from hypothesis import strategies as st
 
 from shotc.emit.csv_table import EMITTER as CSV
 from shotc.flightfiles.clocked import of_rows
-from shotc.flightfiles.verify import FlightsReport
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict
-from shotc.geom.earth import of_world
 from shotc.geom.fleet_spline import pieces as spline_pieces
 from shotc.geom.meetings import closest_of
 from shotc.geom.separation import closest
@@ -27,23 +24,16 @@ from shotc.importers.flights.rows import rows as rows_of
 from shotc.ir.limits import Limits
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Apart
-from shotc.ir.trajectory import Claim
 from shotc.passes.verify import Verify
 from tests.experiments.planted import FLEET, KINDS, LONGEST_S, cruise, show, table
 from tests.support.film_plans import orbit_plan, orbit_text
-from tests.support.flight_files import MISSION, ORIGIN, codes, verified, zipped
-from tests.support.terrain_missions import cliff
-from tests.support.terrain_missions import table as relief_table
+from tests.support.flight_files import MISSION, claims, codes, verified, zipped
 
 Drones = list[dict[str, Any]]
 LIMITS = "{speed: 8, climb: 3, descent: 3, acceleration: 300, jerk: 90000}"
 TEXT = MISSION.replace("limits: {speed: 8 m/s, climb: 3 m/s, descent: 2 m/s}", f"limits: {LIMITS}")
 GENTLE = FLEET.format(zones="", limits=LIMITS)
 FLIGHT = cruise((0.0, -60.0, 0.0), 12.0, 5.0, 8.0)
-
-
-def claims(report: FlightsReport, end: str) -> list[Claim]:
-    return [claim for claim in report.certificate if claim.constraint.endswith(end)]
 
 
 def swarm(count: int = 4) -> bytes:
@@ -363,41 +353,3 @@ def test_no_bytes_make_a_traceback(data: st.DataObject, shown: bool) -> None:
     name, whole = ("all.skyc", zipped({"show.json": bytes(spoilt)})) if shown else ("cam1.csv", bytes(spoilt))
     report = verified((name, whole), text=GENTLE if shown else TEXT)
     assert report.holds == (not any(d.code[0] in "IV" for d in report.diagnostics))
-
-
-@pytest.mark.parametrize(("height", "holds"), [(46.0, True), (30.0, False)])
-def test_a_fleet_is_held_above_terrain(tmp_path: Path, height: float, holds: bool) -> None:
-    # A plain, and from 40 m East on a plateau 40 m above it.
-    (tmp_path / "relief.csv").write_text(relief_table(cliff()))
-    text = GENTLE.replace("alt: 408}", "alt: 408}, terrain: {file: relief.csv}")
-    pads = ((0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (4.0, 4.0))
-    drones = [cruise((x, y, 0.0), height, 4.0, 12.0) for x, y in pads]
-    report = verified(("show.skyc", show(drones)), text=text, folder=tmp_path)
-    (clear,) = claims(report, "ground clearance")
-    (near,) = claims(report, "distance from terrain")
-    assert (clear.holds, near.holds) == (holds, holds)
-    assert clear.position is not None
-    assert clear.position[0] >= 30.0
-    if holds:
-        assert 0.0 < height - 40.0 - clear.worst < 0.5  # the body's radius
-    else:
-        assert clear.worst < -10.0
-        assert "V009" in codes(report)
-
-
-@pytest.mark.parametrize(("height", "holds"), [(20.0, True), (10.0, False)])
-def test_a_fleet_is_held_beside_buildings(tmp_path: Path, height: float, holds: bool) -> None:
-    # A house 14 m high that stands across the way of the first drones.
-    square = np.array([[12.0, -2, 0], [16, -2, 0], [16, 6, 0], [12, 6, 0], [12, -2, 0]])
-    ring = [[lon, lat] for lat, lon, _ in of_world(square, ORIGIN).tolist()]
-    shape = {"type": "Polygon", "coordinates": [ring]}
-    house = {"type": "Feature", "properties": {"height": 14}, "geometry": shape}
-    houses = {"type": "FeatureCollection", "features": [house]}
-    (tmp_path / "houses.geojson").write_text(json.dumps(houses))
-    text = GENTLE.replace("alt: 408}", "alt: 408}, buildings: {file: houses.geojson}")
-    pads = ((0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (4.0, 4.0))
-    drones = [cruise((x, y, 0.0), height, 2.0, 8.0) for x, y in pads]
-    report = verified(("show.skyc", show(drones)), text=text, folder=tmp_path)
-    (away,) = claims(report, "distance from buildings")
-    assert away.holds is holds
-    assert ("V052" in codes(report)) is not holds

@@ -27,7 +27,7 @@ from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.report import rule_of
 from tests.support.records import replace
 from tests.support.show_plans import PADS, RISE, STEP, display, fleet, flight, mission, show
-from tests.support.verdicts import verdict_on
+from tests.support.verdicts import codes, verdict_on
 
 SHOW = show()
 FIELD = Prism(((-20.0, -20.0), (40.0, -20.0), (40.0, 60.0), (-20.0, 60.0)), 5.0, 50.0)
@@ -35,10 +35,6 @@ FIELD = Prism(((-20.0, -20.0), (40.0, -20.0), (40.0, 60.0), (-20.0, 60.0)), 5.0,
 
 def claims(ir: TrajectoryIR) -> dict[str, Claim]:
     return {c.constraint: c for c in verdict_on(ir).certificate}
-
-
-def codes(ir: TrajectoryIR) -> list[str]:
-    return sorted({d.code for d in verdict_on(ir).diagnostics})
 
 
 def with_flight(**changes: object) -> TrajectoryIR:
