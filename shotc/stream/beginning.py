@@ -16,7 +16,8 @@ def moment(text: str, now: datetime) -> datetime:
 
     Raise ValueError, which says what is wrong with the text.
     """
-    found = _next(text, now) if "-" not in text else _dated(text)
+    # A later hyphen belongs to the zone: 21:30:00-05:00 is a time of day.
+    found = _dated(text) if "-" in text[:5] else _next(text, now)
     if found <= now:
         raise ValueError(f"`{text}` was {_span(now - found)} ago")
     if found - now > LATEST:
@@ -40,12 +41,8 @@ def _next(text: str, now: datetime) -> datetime:
         raise ValueError(
             f"`{text}` is no time; write HH:MM:SS, or a date and time as 2026-05-30T21:30:00+02:00"
         ) from None
-    zone = now.astimezone() if of_day.tzinfo is None else now.astimezone(of_day.tzinfo)
-    days = [zone.date() + timedelta(days=shift) for shift in (-1, 0, 1)]
-    every = [
-        datetime.combine(day, of_day) if of_day.tzinfo else datetime.combine(day, of_day).astimezone()
-        for day in days
-    ]
+    today = now.astimezone(of_day.tzinfo).date()
+    every = [datetime.combine(today + timedelta(days=k), of_day).astimezone() for k in (-1, 0, 1)]
     return min(every, key=lambda each: abs(each - now))
 
 

@@ -18,6 +18,7 @@ SUMMER = timezone(timedelta(hours=2))
         ("19:05+00:00", NOW + timedelta(minutes=5)),
         ("21:30:00+02:00", NOW + timedelta(minutes=30)),
         ("01:00:00Z", NOW + timedelta(hours=6)),
+        ("14:30:00-05:00", NOW + timedelta(minutes=30)),
         ("00:10+03:00", NOW + timedelta(hours=2, minutes=10)),
         ("2026-05-30T21:30:00+02:00", NOW + timedelta(minutes=30)),
         ("2026-05-31T06:00:00Z", NOW + timedelta(hours=11)),
