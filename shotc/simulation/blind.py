@@ -9,15 +9,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.film import PlanSamples
-from shotc.simulation.sensors import Interval
-from shotc.simulation.sent import Fading
+from shotc.simulation.sensors import Interval, within
+from shotc.simulation.sent import BACK_S, Fading, seconds_back
 from shotc.simulation.vehicle import VehicleSetpoint
 
 BLIND_S = 2.0
 """Seconds without positions after which a drone brakes: its inertial sensors are off by 0.2 m by then."""
-
-LEAST_BACK_S = 4.0
-"""Least time in which it returns, seconds."""
 
 
 class _Braking(NamedTuple):
@@ -55,7 +52,7 @@ class BlindHold:
 
     def setpoint(self, time: float, planned: VehicleSetpoint, runs: int) -> VehicleSetpoint:
         """Return the setpoint at a time instead of the one that is asked; called at every step in order."""
-        if any(start <= time < end for start, end in self.held):
+        if within(time, self.held):
             if self._braking is None:
                 place, velocity = (
                     np.broadcast_to(part, (runs, 3)) for part in (planned.position, planned.velocity)
@@ -65,13 +62,7 @@ class BlindHold:
         if self._braking is not None:
             self._back = self._returning(self._stopping(self._braking, time), time, planned)
             self._braking = None
-        if self._back is None:
-            return planned
-        if (time >= self._back.start + self._back.durations).all():
-            self._back = None
-            return planned
-        parts = (planned.position, planned.velocity, planned.acceleration)
-        return VehicleSetpoint(*(part + self._back.beside(time, order) for order, part in enumerate(parts)))
+        return planned if self._back is None else self._back.onto(time, planned)
 
     def _stopping(self, of: _Braking, time: float) -> VehicleSetpoint:
         most = self.film.drone.limits.usable_acceleration
@@ -87,6 +78,5 @@ class BlindHold:
 
     def _returning(self, now: VehicleSetpoint, time: float, planned: VehicleSetpoint) -> Fading:
         off, rate = now.position - planned.position, now.velocity - planned.velocity
-        far = 4.0 * np.abs(off).max(axis=1) / self.film.drone.limits.slowest
-        lasts = np.maximum(LEAST_BACK_S, np.minimum(far, self.lands - time))
-        return Fading(self.film, np.full(len(off), time), lasts, off, rate)
+        durations = np.minimum(seconds_back(off, self.film.drone.limits), self.lands - time)
+        return Fading(self.film, np.full(len(off), time), np.maximum(BACK_S, durations), off, rate)

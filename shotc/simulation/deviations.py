@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.simulation.flight import DroneRuns, own_error
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.guidance import MOST_BACK_S
 from shotc.simulation.sensors import within
 from shotc.simulation.situations import Anew, Chased, replanned
@@ -69,22 +69,10 @@ class Lag:
 
 
 @dataclass(frozen=True, slots=True)
-class Misled:
-    """The largest stray of a drone that is mainly its receiver's error, in one run.
+class Peak:
+    """The largest of a drone's distances in one run.
 
-    metres : 0 if there is none
-    time : seconds
-    """
-
-    metres: float = 0.0
-    time: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Unplaced:
-    """The largest error of a drone's own position while it has none by satellites, in one run.
-
-    metres : 0 if it always has one
+    metres : 0 if there is none that counts
     time : seconds
     """
 
@@ -103,31 +91,24 @@ def lags(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[tuple[L
     return [tuple(each[r] for each in lags_of_shots) for r in range(len(world.runs))]
 
 
-def misled(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Misled]:
+def misled(world: World, track: DroneTrajectory, flown: DroneRuns, astray: Array) -> list[Peak]:
     """Return for every run the largest stray of a drone that is mainly its receiver's error.
 
     Replanned shots, flight without positions, and the ways back from both leave the plan on purpose, so they
     do not count.
+
+    astray : the drone's strays, (F, R), metres
     """
-    times = flown.times
-    error = own_error(world, flown.drone, times)
-    off = np.linalg.norm(flown.position - track.curve(times)[:, None, :3], axis=2)
-    counts = np.linalg.norm(error, axis=2) >= RECEIVER_SHARE * off
-    counts &= _on_plan(world, track, times)[:, None]
-    off = np.where(counts, off, 0.0)
-    worst = np.argmax(off, axis=0)
-    return [Misled(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
+    counts = np.linalg.norm(flown.error, axis=2) >= RECEIVER_SHARE * astray
+    counts &= _on_plan(world, track, flown.times)[:, None]
+    return _peaks(np.where(counts, astray, 0.0), flown.times)
 
 
-def unplaced(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Unplaced]:
+def unplaced(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Peak]:
     """Return for every run the largest error of a drone's own position while it has none by satellites."""
     lost, times = world.conditions.lost(flown.drone), flown.times
     aboard = np.array([within(t, lost) and t <= track.curve.end for t in times.tolist()], dtype=bool)
-    if not aboard.any():
-        return [Unplaced()] * len(world.runs)
-    off = np.linalg.norm(own_error(world, flown.drone, times), axis=2) * aboard[:, None]
-    worst = np.argmax(off, axis=0)
-    return [Unplaced(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
+    return _peaks(np.linalg.norm(flown.error, axis=2) * aboard[:, None], times)
 
 
 def needed(mission: MissionIR) -> float:
@@ -143,6 +124,12 @@ def needed(mission: MissionIR) -> float:
     return max(LEAST_STRAY_M, min(clearances))
 
 
+def _peaks(off: Array, times: Array) -> list[Peak]:
+    """Return the largest distance of every run; off : (F, R), metres, at times (F,)."""
+    worst = np.argmax(off, axis=0)
+    return [Peak(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
+
+
 def _moving(world: World, shot: Anew) -> tuple[str, ...]:
     names = (shot.target,) if isinstance(shot, Chased) else tuple(each.target for each in shot.subjects)
     return tuple(name for name in names if world.moves(name))
@@ -155,9 +142,10 @@ def _lags(world: World, track: DroneTrajectory, flown: DroneRuns, of: tuple[Phas
     really = world.places[name]
     course = np.array([world.mission.target(name).at(t) for t in times.tolist()])
     planned = np.linalg.norm(track.curve(times)[:, :3] - course, axis=1)
-    there = at_times(flown.position, flown.times, times) - at_times(really, world.times, times)
+    here = at_times(really, world.times, times)
+    there = at_times(flown.position, flown.times, times) - here
     behind = np.linalg.norm(there, axis=2) - planned[:, None]
-    moved = at_times(really, world.times, times) - at_times(really, world.times, times - SPEED_S)
+    moved = here - at_times(really, world.times, times - SPEED_S)
     velocity = moved[..., :2] / SPEED_S
     along = world.mission.drone(flown.drone).limits.speed_along
     for r in range(len(world.runs)):

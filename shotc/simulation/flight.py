@@ -50,6 +50,7 @@ class DroneRuns:
     times : (F,), seconds
     position, velocity : (F, R, 3), W, metres, m/s
     yaw, pitch, roll : of the camera, (F, R), rad
+    error : of the drone's own position, (F, R, 3), metres
     replans : of every run; () without replanning
     """
 
@@ -60,6 +61,7 @@ class DroneRuns:
     yaw: Array
     pitch: Array
     roll: Array
+    error: Array
     estimated: tuple[Estimated, ...]
     replans: tuple[Replans, ...] = ()
 
@@ -107,7 +109,8 @@ def fly(
     conditions, runs = world.conditions, world.runs
     name, count, n = film.drone.name, len(film.times), len(runs)
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
-    error = own_error(world, name, film.times[::STEPS_PER_RECORD])
+    chances = conditions.chances(runs, f"gps of {name}")
+    error = conditions.gps.own_error(film.times[::STEPS_PER_RECORD], chances, conditions.lost(name))
     hold = BlindHold.of(film, conditions.lost(name))
     targets = _watched(world, film)
     shots = () if by is None else replanned(world.mission, film.track)
@@ -120,7 +123,7 @@ def fly(
     plant = plant_of(conditions.vehicle, vehicle, state)
     first = axes_of(np.full(n, film.yaw[0]), np.full(n, film.pitch[0]))
     attitude = Attitude(first, np.zeros((n, 3)))
-    into = _Record.of(film, n, targets)
+    into = _Record.of(error, targets)
     for k in range(count):
         off = error[k // STEPS_PER_RECORD]
         if k % STEPS_PER_RECORD == 0:
@@ -135,13 +138,6 @@ def fly(
         setpoint = hold.setpoint(float(film.times[k]), setpoint, n)
         state = plant.carried(state, *steered(vehicle, state, setpoint, off), world.steady + gusts[k])
     return into.done(film, guidance)
-
-
-def own_error(world: World, drone: str, times: Array) -> Array:
-    """Return the errors of a drone's own position at uniform times (M,), seconds; shape (M, R, 3), metres."""
-    conditions = world.conditions
-    chances = conditions.chances(world.runs, f"gps of {drone}")
-    return conditions.gps.own_error(times, chances, conditions.lost(drone))
 
 
 def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
@@ -234,13 +230,14 @@ class _Record:
     position: Array
     velocity: Array
     angles: Array
+    error: Array
     estimated: tuple[Estimated, ...]
 
     @staticmethod
-    def of(film: PlanSamples, n: int, targets: tuple[TrackedTarget, ...]) -> _Record:
-        f = (len(film.times) + STEPS_PER_RECORD - 1) // STEPS_PER_RECORD
+    def of(error: Array, targets: tuple[TrackedTarget, ...]) -> _Record:
+        f, n, _ = error.shape
         known = tuple(Estimated(t.name, np.empty((f, n, 3)), np.empty((f, n, 3, 3))) for t in targets)
-        return _Record(np.empty((f, n, 3)), np.empty((f, n, 3)), np.empty((f, n, 3)), known)
+        return _Record(np.empty((f, n, 3)), np.empty((f, n, 3)), np.empty((f, n, 3)), error, known)
 
     def add(
         self, i: int, state: VehicleState, attitude: Attitude, targets: tuple[TrackedTarget, ...]
@@ -262,6 +259,7 @@ class _Record:
             yaw,
             pitch,
             roll,
+            self.error,
             self.estimated,
             tuple(guidance.counts),
         )

@@ -21,7 +21,7 @@ from shotc.simulation.film import PlanSamples
 from shotc.simulation.replanner_answers import fault_of
 from shotc.simulation.replanner_process import ReplannerFailed, ReplannerHangs
 from shotc.simulation.seen import TrackedTarget
-from shotc.simulation.sent import Fading, Sent, SentPlans
+from shotc.simulation.sent import Fading, Sent, SentPlans, seconds_back
 from shotc.simulation.situations import STAGE_S, Anew, Chased, ComposedShot, Known, Rejoined, ReplanInstant
 from shotc.simulation.target_reach import TargetReach, reaches, with_targets
 from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
@@ -45,10 +45,8 @@ height known to 2 cm would let the camera climb and sink twice a second with 0.2
 
 _SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
 
-BACK_S, MOST_BACK_S = 4.0, 20.0
-"""Seconds in which a drone returns to its plan after a shot: the least time, and the most time of replanning
-around an obstacle on the direct path.
-"""
+MOST_BACK_S = 20.0
+"""Seconds after a shot for which a drone replans around an obstacle on the direct path to its plan."""
 
 NEARER_M = 0.01
 """Metres by which the return may lack more clearance than necessary, or than the plan does."""
@@ -197,12 +195,14 @@ class Guidance:
         assert self._back is not None
         now, plan = self._held.setpoint(time), self.film.setpoint(self.film.step(time))
         off, rate = now.position - plan.position, now.velocity - plan.velocity
+        away = np.flatnonzero(self._away).tolist()
+        durations = seconds_back(off, self.film.drone.limits)
         times = np.arange(time, shot.phase.end, STAGE_S)
+        times = times[times < time + durations[away].max()]
         reached = reaches(self.world, self.film.drone, self.targets, times) if len(times) else ()
-        for r in np.flatnonzero(self._away).tolist():
-            duration = max(BACK_S, 4.0 * float(np.abs(off[r]).max()) / self.film.drone.limits.slowest)
-            back = self._back.begun(r, time, duration, (off[r], rate[r]))
-            on_way = times[times < time + duration]
+        for r in away:
+            back = self._back.begun(r, time, float(durations[r]), (off[r], rate[r]))
+            on_way = times[times < time + durations[r]]
             if self._is_clear(back.places(r, on_way), self.film.places(on_way), r, reached):
                 self._back, self._away[r] = back, False
         if not self._away.any():
@@ -223,28 +223,36 @@ class Guidance:
         """Return where those moving targets may be at the stages 1 to N, and once more at N, that a shot does
         not keep clear of by itself.
         """
-        near = shot.target if isinstance(shot, Chased) else None
-        reached = reaches(self.world, self.film.drone, self.targets, np.append(stages[1:], stages[-1]), near)
+        times = np.append(stages[1:], stages[-1])
         if not isinstance(shot, ComposedShot):
-            return reached
+            near = shot.target if isinstance(shot, Chased) else None
+            return reaches(self.world, self.film.drone, self.targets, times, near)
         bodies = {each.target for each in shot.subjects} | {each.name for each in self.targets}
+        reached = reaches(self.world, self.film.drone, (), times)
         return tuple(each for each in reached if each.target not in bodies)
 
     def _replan(self, shot: Anew | Rejoined, time: float, drone: tuple[Array, Array]) -> None:
         assert self._held is not None
-        back = isinstance(shot, Rejoined)
         if isinstance(shot, Rejoined):
             self._come_back(shot, time)
             if self._active is None:
                 return
         stages = time + STAGE_S * np.arange(shot.stages + 1, dtype=np.float64)
-        known = {} if back else {each.name: each.foreseen(stages) for each in self.targets}
+        known = (
+            {} if isinstance(shot, Rejoined) else {each.name: each.foreseen(stages) for each in self.targets}
+        )
         turn, rise = self._turn(shot, time, known), self._risen(shot, time, known)
         reached = self._around(shot, stages)
         plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
             last = self._held.plans[r]
             if not self._away[r]:
+                plans.append(None)
+                continue
+            lost = _lost(known, r)
+            if lost:
+                count.lost += 1
+                count.blind = lost
                 plans.append(None)
                 continue
             assert self._standing is not None
@@ -254,12 +262,6 @@ class Guidance:
                 known, last, r, float(turn[r]), float(rise[r]), self._traffic(r, stages), walls
             )
             mine = (drone[0][r], drone[1][r])
-            lost = _lost(known, r)
-            if lost:
-                count.lost += 1
-                count.blind = lost
-                plans.append(None)
-                continue
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
             plans.append(self._replanned(r, situation, stages))
         self._held = self._held.replaced(plans)

@@ -20,7 +20,7 @@ from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import ClosestApproach, between, nearest
-from shotc.simulation.deviations import Lag, Misled, Unplaced, lags, misled, unplaced
+from shotc.simulation.deviations import Lag, Peak, lags, misled, unplaced
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
@@ -79,8 +79,8 @@ class TrackingError:
     near: tuple[ClosestApproach, ...]
     replans: Replans | None = None
     spoiled: float = 0.0
-    misled: Misled = field(default_factory=Misled)
-    unplaced: Unplaced = field(default_factory=Unplaced)
+    misled: Peak = field(default_factory=Peak)
+    unplaced: Peak = field(default_factory=Peak)
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -156,7 +156,7 @@ def judged(
             near[i][r] = (*near[i][r], each)
     filmed = [tuple(_filmed(mission, track)) for track in ir.drones]
     astray = [_away(f, t) for f, t in zip(flown, ir.drones, strict=True)]
-    led = [misled(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
+    led = [misled(world, t, f, a) for f, t, a in zip(flown, ir.drones, astray, strict=True)]
     blind = [unplaced(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     behind = [lags(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     return tuple(

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.ir.limits import Limits
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.film import PlanSamples
@@ -19,6 +20,8 @@ RATE = np.polynomial.Polynomial([0.0, 1.0, 0.0, -6.0, 8.0, -3.0])
 """Polynomials over a unit time from 1, or from a slope of 1, to rest at 0; no acceleration at both ends."""
 SLOWS_S = 4.0
 """Least time in which a velocity beside the plan fades, seconds."""
+BACK_S = 4.0
+"""Least time in which a drone returns to its plan, seconds."""
 BRAKES_M_S2 = 0.6
 """Mean deceleration of faster ones, m/s^2; a quintic brakes at up to four times its mean."""
 
@@ -55,13 +58,14 @@ class Fading:
 
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint plus the remaining offset."""
-        plan = self.film.setpoint(self.film.step(time))
+        return self.onto(time, self.film.setpoint(self.film.step(time)))
+
+    def onto(self, time: float, planned: VehicleSetpoint) -> VehicleSetpoint:
+        """Return a setpoint plus the remaining offset."""
         if (time >= self.start + self.durations).all():
-            return plan
-        moved = [self.beside(time, order) for order in range(3)]
-        return VehicleSetpoint(
-            plan.position + moved[0], plan.velocity + moved[1], plan.acceleration + moved[2]
-        )
+            return planned
+        parts = (planned.position, planned.velocity, planned.acceleration)
+        return VehicleSetpoint(*(part + self._beside(time, order) for order, part in enumerate(parts)))
 
     def places(self, run: int, times: Array) -> Array:
         """Return the positions of a run at times (M,), shape (M, 3), metres."""
@@ -76,7 +80,7 @@ class Fading:
         speed = np.linalg.norm(self.rate, axis=1)
         return np.asarray(np.minimum(self.durations, np.maximum(SLOWS_S, speed / BRAKES_M_S2)))
 
-    def beside(self, time: float, order: int) -> Array:
+    def _beside(self, time: float, order: int) -> Array:
         """Return the offset or its derivative, (R, 3)."""
         slows = self._slows
         x, y = (
@@ -85,6 +89,11 @@ class Fading:
         place = PLACE.deriv(order)(x) * self.off / self.durations[:, None] ** order
         rate = RATE.deriv(order)(y) * self.rate * slows[:, None] ** (1 - order)
         return np.asarray(place + rate)
+
+
+def seconds_back(off: Array, limits: Limits) -> Array:
+    """Return the durations of returns from offsets (..., 3), metres; shape (...), seconds."""
+    return np.asarray(np.maximum(BACK_S, 4.0 * np.abs(off).max(axis=-1) / limits.slowest))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -87,7 +87,7 @@ class TargetReach:
 def reaches(
     world: World, drone: Drone, tracked: Sequence[TrackedTarget], times: Array, near: str | None = None
 ) -> tuple[TargetReach, ...]:
-    """Return where the moving targets of a mission may be at times (M,), the first of them now.
+    """Return where the moving targets of a mission may be at times (M,), seconds.
 
     near : a target that the drone flies beside on purpose: where it is expected counts alone
     """

@@ -17,7 +17,7 @@ def camera(position: Array) -> DroneRuns:
     """Return a camera that stands at a place in the one run."""
     times = np.array([0.0, 100.0])
     still, angle = np.zeros((2, 1, 3)), np.zeros((2, 1))
-    return DroneRuns("cam1", times, np.tile(position, (2, 1, 1)), still, angle, angle, angle, ())
+    return DroneRuns("cam1", times, np.tile(position, (2, 1, 1)), still, angle, angle, angle, still, ())
 
 
 @pytest.mark.long
