@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
 from shotc.ir.fleet import FleetTrajectory
-from shotc.show.assignment.order import CONTROL_DECIMALS
+from shotc.show.assignment.score import written
 from shotc.show.geom.windows import Window, at_rest, windows
 from shotc.show.solvers.arc_move import ArcMove
 
@@ -98,8 +98,7 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
     stretch = block.stretch
     low, high = float(flight.breaks[stretch.first]), float(flight.breaks[stretch.last])
     here, there = flight.coef[:, stretch.first], flight.coef[:, stretch.last]
-    between = [np.round(points, CONTROL_DECIMALS) for points in move.between(here, there)]
-    points = np.stack(between, axis=1)
+    points = np.stack(written(move, here, there), axis=1)
     coef = np.concatenate(
         [flight.coef[:, : stretch.first + DEGREE], points, flight.coef[:, stretch.last :]], axis=1
     )

@@ -17,9 +17,8 @@ from shotc.ir.owners import CEILING
 from shotc.ir.show import Apart, Fleet, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room, no_way_over
-from shotc.show.assignment.order import CONTROL_DECIMALS
 from shotc.show.assignment.over import LiftedCandidate, MoveSurroundings, MoveTask, over
-from shotc.show.assignment.score import Motion
+from shotc.show.assignment.score import Motion, written
 from shotc.show.assignment.swell import Ends, Heights, lack_of, led
 from shotc.show.geom.arcs import Free, Gaps
 from shotc.show.geom.least_size import ROUNDING, LeastSize, least_size
@@ -192,7 +191,7 @@ class Mover:
 
 def _proved(ends: Ends, move: ArcMove, apart: Apart) -> bool:
     """Return whether all drones keep the separation on a move as it is written, at every time."""
-    between = [np.round(points, CONTROL_DECIMALS) for points in move.between(*ends)]
+    between = written(move, *ends)
     coef = np.stack([*[ends[0]] * 3, *between, *[ends[1]] * 3], axis=1)
     breaks = np.linspace(0.0, move.duration, move.pieces + 1)
     return keeps(closest(breaks, coef, apart).proven, apart.across)

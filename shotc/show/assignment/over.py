@@ -49,7 +49,7 @@ class MoveSurroundings(NamedTuple):
         """
         flown = flown_of(ends, move)
         worst = self.surroundings.worst(flown)
-        high = max(self.heights.high, *(float(e[:, 2].max()) for e in ends))
+        _, high = self.heights.beside(ends)
         above = float(flown.ctrl[..., 2].max()) - high
         return RoomLack(above, None) if above > worst.metres else worst
 

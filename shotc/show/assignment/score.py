@@ -25,6 +25,11 @@ from shotc.show.solvers.wave_move import WaveMove
 Motion = CommonMove | ArcMove | WaveMove | LiftedMove
 
 
+def written(move: Motion | LayeredMove, starts: Array, goals: Array) -> list[Array]:
+    """Return the control points of a move between two formations as a plan has them, shape (n, 3) each."""
+    return [np.round(points, CONTROL_DECIMALS) for points in move.between(starts, goals)]
+
+
 class FlightScore:
     """The trajectory of a fleet under construction.
 
@@ -63,7 +68,7 @@ class FlightScore:
 
     def move(self, places: Array, move: Motion | LayeredMove, duration: float | None = None) -> None:
         """Append a move from stop to stop, in ``duration`` seconds if given."""
-        between = [np.round(points, CONTROL_DECIMALS) for points in move.between(self.places, places)]
+        between = written(move, self.places, places)
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
         self.arcs += isinstance(move, ArcMove)

@@ -162,7 +162,7 @@ def lack_of(ends: Ends, heights: Heights, surroundings: DisplaySurroundings, mov
 def _boxes(ends: Ends, move: ArcMove) -> Array:
     """Return boxes, one for each piece, which contain all drones, shape (K, 2, 3)."""
     reach = [(e.min(axis=0) - move.pivot, e.max(axis=0) - move.pivot) for e in ends]
-    scalars = np.stack([move.ctrl, move.ctrl, move.heights], axis=-1)
+    scalars = move.scalars
     boxes = [np.einsum("kd,cd->kcd", scalars[:, k], np.array(reach[k])) for k in range(2)]
     corners = boxes[0] + boxes[1] + move.pivot
     # A piece lies in the hull of four consecutive control points, and so in the box around their boxes.

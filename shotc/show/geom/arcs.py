@@ -118,10 +118,17 @@ def sampled(ctrl: Array, parts: int) -> tuple[Array, Array]:
 
     ctrl : control points, shape (..., K, 2)
     """
-    u = np.linspace(0.0, 1.0, parts + 1)
-    basis = np.stack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + u**2) - 3 * u**3 + 1, u**3]) / 6.0
+    weights = basis(parts)
     windows = np.lib.stride_tricks.sliding_window_view(ctrl, 4, axis=-2)
-    return windows[..., 0, :] @ basis, windows[..., 1, :] @ basis
+    return windows[..., 0, :] @ weights, windows[..., 1, :] @ weights
+
+
+def basis(parts: int) -> Array:
+    """Return the weights of the four control points of a piece of a uniform cubic B-spline, at the ends of
+    its parts, shape (4, parts + 1).
+    """
+    u = np.linspace(0.0, 1.0, parts + 1)
+    return np.stack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + u**2) - 3 * u**3 + 1, u**3]) / 6.0
 
 
 def angles(count: int) -> Array:

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
 
 Index = NDArray[np.intp]
 
@@ -46,7 +47,7 @@ class CylinderPlanes(NamedTuple):
 
     at: Index
     normals: Array
-    upright: NDArray[np.bool_]
+    upright: Mask
     least: float
 
 
@@ -62,14 +63,15 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
     found: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
     least = REACH_RATIO
     for middle in range(1, len(scalars), 2):
-        near = motion.near(middle)
-        across, along = motion.distances(middle, near)
+        gaps = motion.gaps(middle)
+        across, along = gaps.distances(scalars[middle])
         flat = across >= along
         least = min(least, float(np.maximum(across, along).min(initial=REACH_RATIO)))
         for time in (middle - 1, middle + 1):
-            least = min(least, float(np.maximum(*motion.distances(time, near)).min(initial=REACH_RATIO)))
-            found[time // 2][0].append(motion.normals(time, near[flat], slice(0, 2)))
-            found[time // 2][1].append(motion.normals(time, near[~flat], slice(2, 3)))
+            row = scalars[time]
+            least = min(least, float(np.maximum(*gaps.distances(row)).min(initial=REACH_RATIO)))
+            found[time // 2][0].append(gaps.of(flat).normals(row, slice(0, 2)))
+            found[time // 2][1].append(gaps.of(~flat).normals(row, slice(2, 3)))
     rows = [
         (time, upright, _needed(np.concatenate(both[upright])))
         for time, both in enumerate(found)
@@ -87,7 +89,9 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
 def least_before_and_after(before: Array, after: Array) -> float:
     """Return the least distance of two drones in two formations, at most 1; arguments as above."""
     motion = _Motion(before, after, np.array([[1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]]))
-    return min(float(np.maximum(*motion.distances(k, motion.near(k))).min(initial=1.0)) for k in (0, 1))
+    return min(
+        float(np.maximum(*motion.gaps(k).distances(motion.scalars[k])).min(initial=1.0)) for k in (0, 1)
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,31 +102,38 @@ class _Motion:
     after: Array
     scalars: Array
 
-    def near(self, time: int) -> Index:
-        """Return the pairs within reach of each other, shape (P, 2)."""
-        row = self.scalars[time]
-        places = self.before * row[[0, 0, 2]] + self.after * row[[1, 1, 3]]
-        return np.asarray(cKDTree(places).query_pairs(REACH_RATIO, p=np.inf, output_type="ndarray"))
+    def gaps(self, time: int) -> _Gaps:
+        """Return the pairs that are within reach of each other at a time."""
+        places = _at(self.scalars[time], self.before, self.after)
+        pairs = cKDTree(places).query_pairs(REACH_RATIO, p=np.inf, output_type="ndarray")
+        return _Gaps(*(p[pairs[:, 0]] - p[pairs[:, 1]] for p in (self.before, self.after)))
 
-    def distances(self, time: int, pairs: Index) -> tuple[Array, Array]:
-        """Return the horizontal and the vertical distance of pairs, shape (P,) each."""
-        gap = self._gap(time, *self._ends(pairs))
+
+class _Gaps(NamedTuple):
+    """One drone of each pair from the other: r0 before the move and r1 after it, shape (P, 3) each."""
+
+    before: Array
+    after: Array
+
+    def of(self, some: Mask) -> _Gaps:
+        """Return some of the pairs."""
+        return _Gaps(self.before[some], self.after[some])
+
+    def distances(self, row: Array) -> tuple[Array, Array]:
+        """Return the horizontal and the vertical distance, shape (P,) each, for scalars (4,)."""
+        gap = _at(row, *self)
         return np.hypot(gap[:, 0], gap[:, 1]), np.abs(gap[:, 2])
 
-    def normals(self, time: int, pairs: Index, axes: slice) -> Array:
+    def normals(self, row: Array, axes: slice) -> Array:
         """Return (n.r0, n.r1) for the direction n of each pair in some axes, shape (P, 2)."""
-        r0, r1 = self._ends(pairs)
-        n = self._gap(time, r0, r1)[:, axes]
+        n = _at(row, *self)[:, axes]
         n = n / np.maximum(np.linalg.norm(n, axis=1), SMALL)[:, None]
-        return np.stack([np.einsum("pd,pd->p", n, r[:, axes]) for r in (r0, r1)], axis=1)
+        return np.stack([np.einsum("pd,pd->p", n, r[:, axes]) for r in self], axis=1)
 
-    def _ends(self, pairs: Index) -> tuple[Array, Array]:
-        before, after = (p[pairs[:, 0]] - p[pairs[:, 1]] for p in (self.before, self.after))
-        return before, after
 
-    def _gap(self, time: int, r0: Array, r1: Array) -> Array:
-        row = self.scalars[time]
-        return np.asarray(r0 * row[[0, 0, 2]] + r1 * row[[1, 1, 3]])
+def _at(row: Array, before: Array, after: Array) -> Array:
+    """Return positions or gaps, shape (P, 3), for scalars (4,)."""
+    return np.asarray(before * row[[0, 0, 2]] + after * row[[1, 1, 3]])
 
 
 def _needed(normals: Array) -> Array:

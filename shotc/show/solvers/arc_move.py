@@ -45,6 +45,11 @@ class BindingLimit(NamedTuple):
     drone: int
     limit: str
 
+    @property
+    def ticks(self) -> float:
+        """Return the duration of a piece, rounded up to what plans are written in, s."""
+        return float(np.ceil(self.piece / TICK_S) * TICK_S)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ArcMove:
@@ -76,11 +81,15 @@ class ArcMove:
         """Return the number of pieces."""
         return len(self.ctrl) - 3
 
+    @property
+    def scalars(self) -> Array:
+        """Return the control points of (a, b) for each axis, shape (P + 3, 2, 3)."""
+        return np.stack([self.ctrl, self.ctrl, self.heights], axis=-1)
+
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""
         away, there = starts - self.pivot, goals - self.pivot
-        scalars = np.stack([self.ctrl, self.ctrl, self.heights], axis=-1)
-        return [self.pivot + a * away + b * there for a, b in scalars[3:-3]]
+        return [self.pivot + a * away + b * there for a, b in self.scalars[3:-3]]
 
 
 def fastest_arc(
@@ -104,8 +113,7 @@ def fastest_arc(
     if least < 1.0:
         ctrl = np.concatenate([ctrl[:3], ctrl[3:-3] / least, ctrl[-3:]])
     binding = drones.binding(ctrl)
-    piece = float(np.ceil(binding.piece / TICK_S) * TICK_S)
-    return ArcMove(ctrl, ctrl, pivot, piece, binding.limit, binding.drone)
+    return ArcMove(ctrl, ctrl, pivot, binding.ticks, binding.limit, binding.drone)
 
 
 def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:

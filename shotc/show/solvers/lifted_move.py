@@ -26,9 +26,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
-from shotc.show.geom.arcs import Free
+from shotc.show.geom.arcs import Free, basis
 from shotc.show.solvers.arc_move import LACK_SHARE, Drones, times_of
-from shotc.show.solvers.move import LEAST_PIECE_S, TICK_S, family
+from shotc.show.solvers.move import family
 
 PIECES = (16, 24, 32, 40)
 """Possible numbers of pieces of a lifted move."""
@@ -199,8 +199,7 @@ def lifted(
         return None
     ctrl = course.kept(best.ctrl)
     binding = drones.binding(ctrl, best.lift)
-    piece = float(np.ceil(max(binding.piece, LEAST_PIECE_S) / TICK_S) * TICK_S)
-    return LiftedMove(ctrl, course.pivot, best.lift, piece, binding.limit, binding.drone)
+    return LiftedMove(ctrl, course.pivot, best.lift, binding.ticks, binding.limit, binding.drone)
 
 
 def _farthest(ends: tuple[Array, Array]) -> float:
@@ -304,5 +303,5 @@ def _concave(at: Array, values: Array) -> Array:
 
 @cache
 def _basis() -> Array:
-    u = (np.arange(SAMPLES) / SAMPLES)[:, None]
-    return np.hstack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + u**2 - u**3) + 1, u**3]) / 6.0
+    """Return the weights of four control points at the start of each part, shape (SAMPLES, 4)."""
+    return np.ascontiguousarray(basis(SAMPLES)[:, :-1].T)

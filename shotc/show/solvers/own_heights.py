@@ -30,7 +30,7 @@ Nothing here is a proof: the caller proves the result by ``geom.separation``, wh
 
 from __future__ import annotations
 
-from math import ceil, hypot, inf, sqrt
+from math import hypot, inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -38,10 +38,10 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
-from shotc.show.geom.arcs import sampled
+from shotc.show.geom.arcs import basis, sampled
 from shotc.show.geom.cylinder_planes import CylinderPlanes, cylinder_planes, least_before_and_after
 from shotc.show.solvers.arc_move import ArcMove, Drones
-from shotc.show.solvers.move import LEAST_PIECE_S, TICK_S, Ramps, profile
+from shotc.show.solvers.move import LEAST_PIECE_S, Ramps, profile
 from shotc.solvers.cone_rows import USABLE, ConeRows, Term, WarmStart
 
 PIECES = 36
@@ -122,8 +122,7 @@ def own_heights(task: OwnHeightsTask, pivot: Array) -> ArcMove | None:
     if found is None:
         return None
     binding = drones.binding(found)
-    piece = ceil(max(binding.piece, LEAST_PIECE_S) / TICK_S) * TICK_S
-    return ArcMove(found[:, :2], found[:, 2:], pivot, piece, binding.limit, binding.drone)
+    return ArcMove(found[:, :2], found[:, 2:], pivot, binding.ticks, binding.limit, binding.drone)
 
 
 def _first(drones: Drones) -> Array:
@@ -278,6 +277,4 @@ def _negative(terms: list[Term]) -> list[Term]:
 
 def _basis() -> Array:
     """Return the weights of four control points at the start of each part of a piece, shape (PARTS, 4)."""
-    unit = np.eye(4)
-    columns = [sampled(np.stack([unit[k], unit[k]], axis=-1), PARTS)[0][0, :-1] for k in range(4)]
-    return np.stack(columns, axis=1)
+    return np.ascontiguousarray(basis(PARTS)[:, :-1].T)

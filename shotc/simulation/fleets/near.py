@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
+from shotc.geom.surface.triangles import dot
 
 Pairs = NDArray[np.intp]
 Mask = NDArray[np.bool_]
@@ -160,8 +161,8 @@ def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
         share = _least_upright(one, other)
     else:
         displacement = other - one
-        length = np.maximum(_dot(displacement, displacement), np.finfo(float).tiny)
-        share = np.clip(-_dot(one, displacement) / length, 0.0, 1.0)
+        length = np.maximum(dot(displacement, displacement), np.finfo(float).tiny)
+        share = np.clip(-dot(one, displacement) / length, 0.0, 1.0)
     return _size(one, other, share, upright), share
 
 
@@ -173,11 +174,6 @@ def _least_upright(one: Array, other: Array) -> Array:
         nearer = _size(one, other, left, upright=True) < _size(one, other, right, upright=True)
         low, high = np.where(nearer, low, left), np.where(nearer, right, high)
     return np.asarray(0.5 * (low + high))
-
-
-def _dot(a: Array, b: Array) -> Array:
-    """Return the products of rows, shape (K,)."""
-    return np.asarray(np.einsum("ij,ij->i", a, b))
 
 
 def _size(one: Array, other: Array, share: Array, upright: bool) -> Array:
