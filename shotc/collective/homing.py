@@ -74,7 +74,7 @@ class Homing:
         self.ir, self.flight, mission = ir, flight, ir.keyframes.mission
         self.fleet = mission.fleet(flight.fleet)
         self._course = FlightSpline(flight.breaks, flight.coef)
-        self._mover = Mover(mission, self.fleet)
+        self._mover = Mover(mission, self.fleet, advises=False)
         self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
         self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")

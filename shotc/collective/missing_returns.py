@@ -11,6 +11,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.measures import distinct_measures
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
+from shotc.passes.verify.fleets.burning import PYRO
 from shotc.passes.verify.report import limit_label, side_of
 from shotc.rounding import at_least
 
@@ -60,7 +61,7 @@ def _help(claim: Claim) -> str:
     lack = f"{at_least(abs(claim.worst - claim.limit))} {claim.unit}"
     if claim.constraint == "endurance":
         return f"show all until then {lack} sooner, or raise `endurance` by {lack} if the battery has it"
-    if claim.constraint.startswith("pyro "):
+    if claim.constraint.startswith(PYRO):
         return f"it lacks {lack}: fire it at another moment, or show the pictures of the fleets farther apart"
     if claim.drones and claim.constraint.startswith("separation from"):
         return "put the pads of the fleets farther apart, or show their pictures one after the other"

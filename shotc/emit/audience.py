@@ -11,8 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.fleet_spline import places
-from shotc.geom.surface.ground import heights
-from shotc.geom.surface.tree import under_points
+from shotc.geom.surface.ground import under
 from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR
@@ -87,13 +86,9 @@ def _floor(mission: MissionIR, fleet: str, place: Vec2) -> float:
     Where there is no terrain, the ground is at the height of the fleet's lowest pad.
     """
     ground = None if mission.terrain is None else mission.terrain.height(*place)
-    found = [min(pad[2] for pad in mission.fleet(fleet).pads) if ground is None else ground]
-    xy = np.array([place])
-    for mesh in mission.meshes:
-        triangles = mesh.surface.triangles[under_points(mesh.surface, xy).triangle]
-        z = heights(triangles, np.repeat(xy, len(triangles), axis=0))
-        found += z[~np.isnan(z)].tolist()
-    return max(found)
+    lowest = min(pad[2] for pad in mission.fleet(fleet).pads) if ground is None else ground
+    roofs = [under(mesh.surface, np.array([place])).height[0] for mesh in mission.meshes]
+    return float(np.nanmax([lowest, *roofs]))
 
 
 def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audience:

@@ -85,15 +85,15 @@ class Under:
 
 def height_at(ground: Ground, xy: Array) -> Array:
     """Return the heights (K,) of the ground at points (K, 2), metres of W; NaN without ground."""
-    return under(ground, xy).height
+    return under(ground.surface, xy).height
 
 
-def under(ground: Ground, xy: Array) -> Under:
-    """Return the ground below points (K, 2), metres of W."""
+def under(surface: Surface, xy: Array) -> Under:
+    """Return the highest of a surface at points (K, 2), metres of W; NaN and -1 where there is nothing."""
     out = Under(np.full(len(xy), np.nan), np.full(len(xy), -1))
     for start in range(0, len(xy), BATCH_ITEMS):
         part = slice(start, start + BATCH_ITEMS)
-        _under(ground.surface, xy[part], Under(out.height[part], out.triangle[part]))
+        _under(surface, xy[part], Under(out.height[part], out.triangle[part]))
     return out
 
 

@@ -70,7 +70,7 @@ class _Heights:
     def look(self, parts: Numbered) -> None:
         """Evaluate the heights of the middles of all pieces as a first bound."""
         middle = middles(parts.pieces.ctrl)
-        heights = under(self.ground, middle[:, :2])
+        heights = under(self.ground.surface, middle[:, :2])
         there = np.flatnonzero(heights.triangle >= 0)
         values = self.sign * (middle[there, 2] - heights.height[there])
         self.known.meet(values, parts, there, heights.triangle[there])

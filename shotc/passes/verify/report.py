@@ -16,6 +16,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.energy import energy_note
+from shotc.passes.verify.fleets.burning import PYRO
 from shotc.passes.verify.fleets.pyro_advice import pyro_advice
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
@@ -94,7 +95,7 @@ STARTING = {
     "drift at ": Rule("V016", help=REPLAN),
     "separation ": Rule("V022"),
     "lights outside ": Rule("V057"),
-    "pyro ": Rule("V059"),
+    PYRO: Rule("V059"),
     "distance from scene": Rule("V052"),
     "distance from buildings": Rule("V052"),
 }

@@ -63,12 +63,16 @@ def burning_beside(
     burning, other : both fleets from that time on, s
     """
     fleet, breaks, coef = burning
+    last = float(breaks[-1])
+    cues = [
+        each for each in _cues(mission, fleet) if each.cue.ignition < called_off < min(each.cue.end, last)
+    ]
+    if not cues:
+        return
     names, own = drone_names(fleet), pieces(breaks, coef)
-    for _, cue, name in _cues(mission, fleet):
-        span = (called_off, min(cue.end, float(breaks[-1])))
-        if not cue.ignition < called_off < span[1]:
-            continue
-        beside = other.breaks, pieces(other.breaks, other.coef)
+    beside = other.breaks, pieces(other.breaks, other.coef)
+    for _, cue, name in cues:
+        span = (called_off, min(cue.end, last))
         bounds = {
             row: nearest(Piecewise(breaks, own[row]), *beside, span, cue.clear) for row in rows_of(fleet, cue)
         }

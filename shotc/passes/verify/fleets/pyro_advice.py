@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -34,8 +33,8 @@ OTHERWISE = "fire it at another moment or from other drones"
 def pyro_advice(ir: TrajectoryIR, claim: Claim) -> str:
     """Return the change with which a product of a broken claim keeps its distances."""
     firing = _Firing.of(ir, claim)
-    moment = next(islice(firing.moments(), 1), None)
-    drones = next(islice(firing.drones(), 1), None)
+    moment = next(firing.moments(), None)
+    drones = next(firing.drones(), None)
     ways = []
     if moment is not None:
         ways.append(f"write `at: {moment:g} s`")
