@@ -1,9 +1,11 @@
 """`make mutants`: put seeded faults into the source, one at a time, and see whether a test fails.
 
-The suite is run once, to record which tests run which lines, and again where the source is another one. Each
-mutant then meets only the tests that run its statement, with a limit of CPU time, in a copy of the tree. A
-test that fails in the copy without the fault, too, does not count. The report lists what survived, and goes
-to ``out/mutants/report.txt``. The exit status is 1 where fewer are killed than shall be.
+The suite is run once, to record which tests run which lines; later only tests of new text are, unless the
+source has changed. Each mutant then meets only the tests that run its statement, with a limit of CPU time,
+in a copy of the tree: first the test that killed it in an earlier campaign. What survived the same tests
+before is not tried again. A test that fails in the copy without the fault, too, does not count. The report
+lists what survived, and goes to ``out/mutants/report.txt``. The exit status is 1 where fewer are killed than
+shall be.
 """
 
 from __future__ import annotations
@@ -82,7 +84,10 @@ def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Names
     equivalent = {e.key for e in EQUIVALENTS}
     tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
     copies = [OUT / f"copy-{k}" for k in range(options.jobs)]
-    benches = [Bench(ROOT, copy, covered, tests, options.longest) for copy in copies]
+    remembered = OUT / "memory.jsonl"
+    benches = [
+        Bench(ROOT, copy, covered, tests, remembered=remembered, longest=options.longest) for copy in copies
+    ]
     free: SimpleQueue[Bench] = SimpleQueue()
     for bench in benches:
         free.put(bench)

@@ -10,14 +10,14 @@ import subprocess
 import sys
 from argparse import Namespace
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from tests.experiments.mutants.changes import Mutant
-from tests.experiments.mutants.recording import FOLDER, IMPORT, PATHS
+from tests.experiments.mutants.recording import FOLDER, IMPORT, KNOWN, PATHS, text_digest
 
 INSTANT_S = 0.02
 """CPU seconds by which one test is hardly quicker than another."""
@@ -33,16 +33,14 @@ class CoverageMap:
         self.lines: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         self.asked: dict[str, set[str]] = defaultdict(set)
         self.seconds: dict[str, float] = {}
-        failed: set[str] = set()
         for record in records:
-            failed.update(record["failed"])
             self.seconds.update(record["seconds"])
+            self.forget(record["failed"])
             for name, by in record["asked"].items():
                 self.asked[name].update(by)
             for path, lines in record["lines"].items():
                 for line, contexts in lines.items():
                     self.lines[path][int(line)].update(contexts)
-        self.forget(failed)
 
     @cached_property
     def breadth(self) -> dict[str, int]:
@@ -71,7 +69,7 @@ class CoverageMap:
         lines = self.lines.get(mutant.path, {})
         return set().union(*(lines.get(n, ()) for n in range(mutant.first, mutant.last + 1)))
 
-    def forget(self, tests: set[str]) -> None:
+    def forget(self, tests: Iterable[str]) -> None:
         """Leave tests out that fail without a fault."""
         for test in tests:
             self.seconds.pop(test, None)
@@ -88,27 +86,63 @@ class CoverageMap:
 
 
 def recorded(folder: Path, paths: Sequence[str], root: Path, options: Namespace) -> CoverageMap:
-    """Return the map in a folder; run the suite and record it where there is none of these files.
+    """Return the map in a folder, after a run of the tests that it lacks.
+
+    A test whose file has changed is recorded again. Where the source has changed, all tests are.
 
     options : tests, as pytest's command line names them; record, whatever there is; jobs, how many at once
     """
-    digest = folder / "digest.txt"
-    now = _digest(root, paths, options.tests)
-    if options.record or not digest.is_file() or digest.read_text(encoding="utf-8") != now:
+    source, tests = folder / "source.txt", folder / "tests.txt"
+    now, asked = _source_digest(root, paths), _tests_digest(root, options.tests)
+    if options.record or _text(source) != now:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        environment = dict(os.environ) | {FOLDER: str(folder), PATHS: "\n".join(paths)}
-        chosen = ["-p", "tests.experiments.mutants.recording", *shlex.split(options.tests)]
-        command = [sys.executable, "-m", "pytest", "-n", str(options.jobs), "--dist", "loadgroup", *chosen]
-        subprocess.run(command, cwd=root, env=environment, check=False)
-        digest.write_text(now, encoding="utf-8")
-    return CoverageMap(json.loads(p.read_text(encoding="utf-8")) for p in sorted(folder.glob("*.json")))
+        source.write_text(now, encoding="utf-8")
+    if _text(tests) != asked:
+        _record(folder, paths, root, options)
+        tests.write_text(asked, encoding="utf-8")
+    return CoverageMap(_records(folder, root))
 
 
-def _digest(root: Path, paths: Sequence[str], tests: str) -> str:
-    """Return what tells one source, recorded by tests of some names, from another."""
+def _record(folder: Path, paths: Sequence[str], root: Path, options: Namespace) -> None:
+    """Run the tests that are not recorded; each process of the run writes a record."""
+    run = folder / f"{len(list(folder.glob('*/'))):03}"
+    run.mkdir()
+    known = folder / "known.txt"
+    known.write_text("\n".join(CoverageMap(_records(folder, root)).seconds), encoding="utf-8")
+    environment = dict(os.environ) | {FOLDER: str(run), PATHS: "\n".join(paths), KNOWN: str(known)}
+    chosen = ["-p", "tests.experiments.mutants.recording", *shlex.split(options.tests)]
+    command = [sys.executable, "-m", "pytest", "-n", str(options.jobs), "--dist", "loadgroup", *chosen]
+    subprocess.run(command, cwd=root, env=environment, check=False)
+
+
+def _records(folder: Path, root: Path) -> Iterator[dict[str, Any]]:
+    """Yield the records, the oldest first, without the tests whose files have changed since."""
+    for path in sorted(folder.glob("*/*.json")):
+        record = json.loads(path.read_text(encoding="utf-8"))
+        same = {name for name, digest in record["files"].items() if _is_text(root / name, digest)}
+        seconds = {test: s for test, s in record["seconds"].items() if test.partition("::")[0] in same}
+        yield {**record, "seconds": seconds, "failed": [test for test in record["failed"] if test in seconds]}
+
+
+def _is_text(path: Path, digest: str) -> bool:
+    return path.is_file() and text_digest(path) == digest
+
+
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
+def _source_digest(root: Path, paths: Sequence[str]) -> str:
+    """Return what tells one source from another."""
     files = sorted(file for path in paths for file in (root / path).rglob("*.py"))
-    tested = [*root.glob("tests/**/test_*.py"), *root.glob("plugins/**/test_*.py")]
-    names = sorted(file.relative_to(root).as_posix() for file in tested)
-    parts = [tests.encode(), "\n".join(names).encode(), *(file.read_bytes() for file in files)]
-    return sha256(b"\0".join(parts)).hexdigest()
+    return sha256(
+        "\n".join(f"{file.relative_to(root)} {text_digest(file)}" for file in files).encode()
+    ).hexdigest()
+
+
+def _tests_digest(root: Path, tests: str) -> str:
+    """Return what tells one choice of tests from another, and one text of them."""
+    files = sorted([*root.glob("tests/**/test_*.py"), *root.glob("plugins/**/test_*.py")])
+    lines = [tests, *(f"{file.relative_to(root)} {text_digest(file)}" for file in files)]
+    return sha256("\n".join(lines).encode()).hexdigest()

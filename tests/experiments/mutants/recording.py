@@ -7,6 +7,7 @@ whichever test comes first. Its lines count for all tests that ask for it.
 from __future__ import annotations
 
 import functools
+import hashlib
 import json
 import os
 import time
@@ -18,8 +19,9 @@ from typing import Any
 import coverage
 import pytest
 
-FOLDER, PATHS = "MUTANTS_RECORD", "MUTANTS_PATHS"
-"""Environment: the folder to write into, and the folders whose lines count, one a line."""
+FOLDER, PATHS, KNOWN = "MUTANTS_RECORD", "MUTANTS_PATHS", "MUTANTS_KNOWN"
+"""Environment: the folder to write into; the folders whose lines count, one a line; a file with the ids of
+tests that are recorded already, one a line."""
 
 IMPORT = ""
 """The context of what runs when a module is imported."""
@@ -38,6 +40,7 @@ class Recorder:
         self.asked: dict[str, set[str]] = defaultdict(set)
         self.seconds: dict[str, float] = {}
         self.failed: set[str] = set()
+        self.files: dict[str, str] = {}
 
     def enter(self, context: str) -> None:
         self.stack.append(context)
@@ -70,6 +73,14 @@ class Recorder:
 
         asking.cache_clear = kept.cache_clear  # type: ignore[attr-defined]
         return asking
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Leave the tests that are not recorded yet, and note the text of their files."""
+        known = set(Path(os.environ[KNOWN]).read_text(encoding="utf-8").split("\n"))
+        items[:] = [item for item in items if _plain(item) not in known]
+        for path in {item.path for item in items}:
+            self.files[path.relative_to(Path.cwd()).as_posix()] = text_digest(path)
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
@@ -117,8 +128,14 @@ class Recorder:
             "asked": {name: sorted(by) for name, by in self.asked.items()},
             "seconds": self.seconds,
             "failed": sorted(self.failed),
+            "files": self.files,
         }
         (self.folder / f"{os.getpid()}.json").write_text(json.dumps(record), encoding="utf-8")
+
+
+def text_digest(path: Path) -> str:
+    """Return what tells one text of a file from another."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _fixture(definition: Any, request: pytest.FixtureRequest) -> str:

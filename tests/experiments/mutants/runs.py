@@ -6,7 +6,7 @@ import os
 import resource
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from multiprocessing import Pipe
 from pathlib import Path
 
@@ -38,12 +38,15 @@ class Waiting:
             )
         self.tests = set(self.pipe.recv())
 
-    def run(self, path: str, old: str, new: str, tests: Sequence[str], seconds: float) -> str | None:
+    def run(self, path: str, old: str, new: str, tests: Mapping[str, float]) -> str | None:
         """Run tests until one fails, with a file's text exchanged: killed, timeout or survived.
 
         None is that a fresh process must import the file.
+
+        tests : each with the seconds of CPU that it may take
         """
-        self.pipe.send(Task(path, old, new, tuple(t for t in tests if t in self.tests), int(seconds) + 1))
+        names = tuple(test for test in tests if test in self.tests)
+        self.pipe.send(Task(path, old, new, names, tuple(tests[name] for name in names)))
         status = self.pipe.recv()
         return None if status in {COLD, UNSURE} else _verdict(status)
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 from tests.experiments.mutants.changes import Mutant
 from tests.experiments.mutants.coverage_map import CoverageMap
+from tests.experiments.mutants.memory import Memory
 from tests.experiments.mutants.runs import FAILED_FILE, Waiting, fresh_run
 
-START_SECONDS, LONGER = 10.0, 4.0
-"""CPU that a trial may take: its imports, and so many times what its tests took without the fault."""
+START_SECONDS, LONGER = 5.0, 4.0
+"""CPU that a test may take: late imports, and so many times what it took without the fault."""
 
 
 @dataclass(frozen=True)
@@ -28,20 +29,35 @@ class Trial:
 class Bench:
     """A copy of the tree in which mutants are tried one after another.
 
+    remembered : file of what earlier campaigns found
     longest : seconds of CPU that the tests of a mutant may take without it; the broadest are left out beyond
     """
 
-    def __init__(self, root: Path, copy: Path, covered: CoverageMap, tests: Sequence[str], longest: float):
+    def __init__(
+        self,
+        root: Path,
+        copy: Path,
+        covered: CoverageMap,
+        tests: Sequence[str],
+        *,
+        remembered: Path,
+        longest: float,
+    ) -> None:
         _copy_tree(root, copy)
         self.copy, self.covered, self.longest = copy, covered, longest
+        self.memory = Memory(remembered, copy)
         self.waiting = Waiting(tests, copy)
         self.sound: set[str] = set()
 
     def tried(self, mutant: Mutant) -> Trial:
         """Put a fault into the copy, run its tests until one fails, and take the fault out again."""
         while tests := self._tests(mutant):
+            if self.memory.survives(mutant, tests):
+                return Trial(mutant, "survived", len(tests))
             verdict = self._verdict(mutant, tests)
-            if verdict != "killed" or not (failed := self._failed()) or self._passes(failed):
+            failed = self._failed() if verdict == "killed" else ""
+            if not failed or self._passes(failed):
+                self.memory.note(mutant, verdict, tests, failed)
                 return Trial(mutant, verdict, len(tests))
             self.covered.forget({failed})
         return Trial(mutant, "uncovered", 0)
@@ -51,8 +67,10 @@ class Bench:
         self.waiting.close()
 
     def _tests(self, mutant: Mutant) -> list[str]:
+        """Return the tests of a mutant that there is time for, the one that killed it before first."""
         total, found = 0.0, []
-        for test in self.covered.tests(mutant):
+        killer = self.memory.killer(mutant)
+        for test in sorted(self.covered.tests(mutant), key=lambda test: test != killer):
             total += self.covered.seconds[test]
             if total > self.longest and found:
                 break
@@ -63,19 +81,19 @@ class Bench:
         path = self.copy / mutant.path
         old = path.read_text(encoding="utf-8")
         new = mutant.applied(old)
-        seconds = self._seconds(tests)
+        limits = self._limits(tests)
         _write(path, new)
         (self.copy / FAILED_FILE).unlink(missing_ok=True)
         try:
-            verdict = self.waiting.run(mutant.path, old, new, tests, seconds)
+            verdict = self.waiting.run(mutant.path, old, new, limits)
             if verdict is None or (verdict == "survived" and self.covered.imports(mutant)):
-                return fresh_run(tests, self.copy, seconds)
+                return fresh_run(tests, self.copy, sum(limits.values()))
             return verdict
         finally:
             _write(path, old)
 
-    def _seconds(self, tests: Sequence[str]) -> float:
-        return START_SECONDS + LONGER * sum(self.covered.seconds[test] for test in tests)
+    def _limits(self, tests: Sequence[str]) -> dict[str, float]:
+        return {test: START_SECONDS + LONGER * self.covered.seconds[test] for test in tests}
 
     def _failed(self) -> str:
         """Return the test that failed; none did where a module could not be imported."""
@@ -85,7 +103,7 @@ class Bench:
     def _passes(self, test: str) -> bool:
         """Whether a test passes in the copy without a fault: one that does not tells nothing of one."""
         if test not in self.sound:
-            if self.waiting.run("", "", "", [test], self._seconds([test])) != "survived":
+            if self.waiting.run("", "", "", self._limits([test])) != "survived":
                 return False
             self.sound.add(test)
         return True

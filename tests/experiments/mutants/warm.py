@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import resource
+from math import ceil
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import FunctionType
@@ -25,13 +26,16 @@ SURVIVED, KILLED, COLD, UNSURE = 0, 1, 3, 4
 
 
 class Task(NamedTuple):
-    """A fault and its tests; old, new : texts of the file, the same for no fault; seconds : limit of CPU."""
+    """A fault and its tests.
+
+    old, new : texts of the file, the same for no fault; seconds : of CPU that each test may take
+    """
 
     path: str
     old: str
     new: str
     tests: tuple[str, ...]
-    seconds: int
+    seconds: tuple[float, ...]
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -50,11 +54,10 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
 
 
 def _try(task: Task, items: dict[str, pytest.Item], functions: dict[str, list[FunctionType]]) -> int:
-    resource.setrlimit(resource.RLIMIT_CPU, (task.seconds, task.seconds))
     path = str(Path.cwd() / task.path)
     try:
         sure = task.new == task.old or _patched(functions.get(path, []), path, task)
-        ended = _run([items[name] for name in task.tests])
+        ended = _run([items[name] for name in task.tests], task.seconds)
     except NotPatchedError:
         return COLD
     except BaseException:  # noqa: BLE001 - a fault may end the session, too
@@ -72,8 +75,10 @@ def _patched(functions: list[FunctionType], path: str, task: Task) -> bool:
     return True
 
 
-def _run(tests: list[pytest.Item]) -> int:
-    for test, following in zip(tests, [*tests[1:], None], strict=True):
+def _run(tests: list[pytest.Item], seconds: tuple[float, ...]) -> int:
+    for test, following, limit in zip(tests, [*tests[1:], None], seconds, strict=True):
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        resource.setrlimit(resource.RLIMIT_CPU, (ceil(used.ru_utime + used.ru_stime + limit), -1))
         test.config.hook.pytest_runtest_protocol(item=test, nextitem=following)
         if test.session.testsfailed:
             return KILLED

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import json
 import shutil
 import subprocess
+from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +14,9 @@ import pytest
 
 from tests.experiments.mutants.__main__ import ROOT, draw, every, report
 from tests.experiments.mutants.changes import mutants
-from tests.experiments.mutants.coverage_map import CoverageMap
+from tests.experiments.mutants.coverage_map import CoverageMap, recorded
 from tests.experiments.mutants.equivalents import EQUIVALENTS
+from tests.experiments.mutants.memory import Memory
 from tests.experiments.mutants.patched import NotPatchedError, patch
 from tests.experiments.mutants.recording import IMPORT
 from tests.experiments.mutants.trial import Bench, Trial
@@ -222,8 +225,63 @@ def test_a_mutant_meets_the_tests_of_its_line(tmp_path: Path) -> None:
         "seconds": dict.fromkeys(tests, 0.1),
         "failed": [],
     }
-    bench = Bench(root, tmp_path / "copy", CoverageMap([record]), tests, 10.0)
+    remembered = tmp_path / "memory.jsonl"
+    bench = Bench(root, tmp_path / "copy", CoverageMap([record]), tests, remembered=remembered, longest=10.0)
     trials = [(m.change, bench.tried(m).verdict) for m in mutants("tests/held.py", HELD)]
     bench.close()
     assert trials == [("1  ->  2", "killed"), (">  ->  <", "killed"), ("-  ->  +", "survived")]
     assert (tmp_path / "copy/tests/held.py").read_text(encoding="utf-8") == HELD
+
+
+def test_a_killer_is_remembered_and_a_survivor_while_no_text_changes(tmp_path: Path) -> None:
+    (tmp_path / "shotc").mkdir()
+    module, tested, other = (tmp_path / name for name in ("shotc/m.py", "test_m.py", "test_n.py"))
+    for path in (module, tested, other):
+        path.write_text("a + b", encoding="utf-8")
+    one, two = mutants("shotc/m.py", "a + b\na - b")
+    file = tmp_path / "memory.jsonl"
+    memory = Memory(file, tmp_path)
+    memory.note(one, "killed", ["test_m.py::a"], "test_m.py::a")
+    memory.note(two, "survived", ["test_m.py::a"], "")
+
+    later = Memory(file, tmp_path)
+    assert (later.killer(one), later.killer(two)) == ("test_m.py::a", "")
+    assert later.survives(two, ["test_m.py::a"])
+    assert not later.survives(one, ["test_m.py::a"])
+    assert not later.survives(two, ["test_m.py::a", "test_n.py::b"])
+    other.write_text("a", encoding="utf-8")
+    assert Memory(file, tmp_path).survives(two, ["test_m.py::a"])
+    tested.write_text("a", encoding="utf-8")
+    assert not Memory(file, tmp_path).survives(two, ["test_m.py::a"])
+    tested.write_text("a + b", encoding="utf-8")
+    module.write_text("a", encoding="utf-8")
+    assert not Memory(file, tmp_path).survives(two, ["test_m.py::a"])
+
+
+@pytest.mark.long
+def test_only_tests_of_new_text_are_recorded_again(tmp_path: Path) -> None:
+    root = tmp_path / "root"
+    shutil.copytree(ROOT / "tests/experiments/mutants", root / "tests/experiments/mutants")
+    for name in ("tests/__init__.py", "tests/experiments/__init__.py", "pyproject.toml"):
+        (root / name).touch()
+    (root / "held").mkdir()
+    (root / "held/module.py").write_text(HELD, encoding="utf-8")
+    for name in "ab":
+        text = f"from held.module import far\n\n\ndef test_{name}():\n    assert far(2)\n"
+        (root / f"tests/test_{name}.py").write_text(text, encoding="utf-8")
+    options = Namespace(record=False, tests="tests", jobs=1)
+
+    def ids() -> list[str]:
+        return sorted(recorded(tmp_path / "record", ["held"], root, options).seconds)
+
+    def runs() -> int:
+        return len(list((tmp_path / "record").glob("*/*.json")))
+
+    assert (ids(), runs()) == (["tests/test_a.py::test_a", "tests/test_b.py::test_b"], 1)
+    assert (ids(), runs()) == (["tests/test_a.py::test_a", "tests/test_b.py::test_b"], 1)
+    (root / "tests/test_b.py").write_text(text.replace("test_b", "test_c"), encoding="utf-8")
+    assert (ids(), runs()) == (["tests/test_a.py::test_a", "tests/test_b.py::test_c"], 2)
+    (last,) = (tmp_path / "record/001").glob("*.json")
+    assert list(json.loads(last.read_text(encoding="utf-8"))["seconds"]) == ["tests/test_b.py::test_c"]
+    (root / "held/module.py").write_text(f"{HELD}\nFAR = 2\n", encoding="utf-8")
+    assert (len(ids()), runs()) == (2, 1)
