@@ -31,7 +31,7 @@ if CI:
 
 UNMARKED = "unmarked"
 BEGIN = pytest.StashKey[float]()
-LIMITS = (("long", 1.0), ("slow", 0.2))
+LIMITS = (("long", 1.0), ("slow", 0.15))
 """Marks, and the seconds of CPU from which on a test has one of them or one further up."""
 
 

@@ -122,6 +122,7 @@ def test_an_unknown_list(run: Run) -> None:
     assert run("list", "planes").code == 2
 
 
+@pytest.mark.slow
 def test_the_schema_is_json(run: Run) -> None:
     document = json.loads(run("schema").out)
     assert document["$schema"].startswith("https://json-schema.org/")

@@ -32,6 +32,7 @@ def missions(tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_missions_of_a_folder_are_planned_each_into_its_own(run: Run, missions: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = run("plan", str(missions), "-o", str(out), "--jobs", "1", *FAST)

@@ -64,6 +64,7 @@ def test_a_show_over_terrain_is_no_failure_of_the_compiler(tmp_path):
     assert all(not told.code.startswith("X") for told in faults(tmp_path, SHOW))
 
 
+@pytest.mark.slow
 def test_a_way_over_a_hole_of_the_terrain_is_told_at_the_shot_that_it_leads_to(tmp_path):
     rows = table(relief()).splitlines(keepends=True)
     xy = [tuple(map(float, row.split(",")[:2])) for row in rows[1:]]

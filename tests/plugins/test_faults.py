@@ -75,6 +75,7 @@ def test_a_kind_that_cannot_be_imported_fails_only_the_missions_that_use_it(inst
     assert fault.labels[0].span.line == len(OF_A_SAMPLE.splitlines())
 
 
+@pytest.mark.slow
 def test_an_emitter_that_cannot_be_imported_fails_only_who_asks_for_it(install):
     install("broken-maker", "sample", "raise RuntimeError('no such file')", "emitters")
     assert emit_plan(orbit_plan(), ["csv"]).diagnostics == ()

@@ -94,6 +94,7 @@ def test_a_place_keeps_the_half_spaces_of_its_stage_and_stops_before_those_of_th
     assert here.ends == pytest.approx(stands @ WALLS.normals[-1].T - WALLS.offsets[-1] - 0.2, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_slopes_are_those_of_the_values(name):
     here = found(*CASES[name])

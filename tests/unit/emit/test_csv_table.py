@@ -45,6 +45,7 @@ def with_mission(plan: VerifiedIR, **changes: object) -> VerifiedIR:
     return VerifiedIR(replace(ir, keyframes=replace(ir.keyframes, mission=mission)), plan.certificate)
 
 
+@pytest.mark.slow
 def test_headers_are_the_contract() -> None:
     motion, framing = (a.data.decode() for a in EMITTER.emit(PLAN).artifacts)
     effort = ",tilt_rad,thrust_to_weight,airspeed_m_s,power_w"
@@ -130,6 +131,7 @@ def test_behind_the_camera_cells_are_empty_and_flags_are_not() -> None:
     assert {r["in_frame"] for r in seen} == {"0"}
 
 
+@pytest.mark.slow
 def test_flags_follow_the_scene() -> None:
     mission = PLAN.trajectory.keyframes.mission
     screen = Zone("screen", "out", box((30.0, 0.0, 10), (1, 4, 20), 0), ("world", "zones", "screen"))
@@ -156,6 +158,7 @@ def test_drones_are_sorted_and_every_one_has_its_own_end() -> None:
     assert float(motion[names.count("a")]["t_s"]) == 0.0
 
 
+@pytest.mark.slow
 def test_the_same_bytes_twice() -> None:
     assert EMITTER.emit(orbit_plan()) == EMITTER.emit(orbit_plan())
 

@@ -59,6 +59,7 @@ def test_a_depth_that_changes_is_followed_so_that_no_disc_is_half_of_what_is_sha
     assert len(told) <= 3 * (1 / last - 1 / first) / (2 * reach)
 
 
+@pytest.mark.slow
 def test_nothing_is_focused_where_nothing_is_said_of_an_aperture() -> None:
     assert commands(MAVLINK.emit(orbit_plan()), 532) == []
     shutter = FAST._replace(aperture=None)

@@ -53,6 +53,7 @@ def test_what_is_read_is_what_was_written(orbit):
     assert kinds == ["start", "stop"]
 
 
+@pytest.mark.slow
 def test_a_target_that_is_looked_straight_at_is_the_point_of_interest(orbit):
     plan = orbit_plan()
     mission = plan.trajectory.keyframes.mission

@@ -37,6 +37,7 @@ def restless() -> DroneTrajectory:
     return DroneTrajectory("cam1", curve, phases, (), ())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("autopilot", "names"), [("px4", ["cam1.plan"]), ("ardupilot", ["cam1.plan", "cam1.waypoints"])]
 )
@@ -55,6 +56,7 @@ def test_without_an_origin_nothing_is_written_and_one_warning_says_so() -> None:
     assert registry()["E101"].severity == "warning"
 
 
+@pytest.mark.slow
 def test_the_note_states_count_tolerances_and_the_worst_frame() -> None:
     emission = EMITTER.emit(orbit_plan())
     count = emission.artifacts[0].data.count(b"SimpleItem")
@@ -133,6 +135,7 @@ def test_text_waypoints_refuse_empty_parameters() -> None:
         read_waypoints(b"QGC WPL 100\n")
 
 
+@pytest.mark.slow
 def test_no_angle_is_written_as_radians() -> None:
     source = retold(orbit_plan(), autopilot="ardupilot")
     items, _ = read_waypoints(EMITTER.emit(source).artifacts[1].data)

@@ -125,6 +125,7 @@ def test_a_gimbal_that_looks_aside_looks_to_the_planned_side(autopilot: str, off
     assert flown.body_yaw[flown.part == 1] == pytest.approx(0.3, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_progress_pairs_a_turn_on_the_spot_with_its_own_instant() -> None:
     low, high = (0.0, -60.0, 0.0, 0.0, -0.2), (0.0, -60.0, 20.0, 0.0, -0.2)
     turned = (0.0, -60.0, 20.0, pi / 2, -0.2)

@@ -71,6 +71,7 @@ def test_legs_of_a_stretch_are_even() -> None:
     assert lengths[-1] > 0.3 * max(lengths)
 
 
+@pytest.mark.slow
 def test_heading_bounds_legs_where_px4_holds_it() -> None:
     work = thinner(SAMPLE)
     yaw = work.track.poses.body_yaw
@@ -81,6 +82,7 @@ def test_heading_bounds_legs_where_px4_holds_it() -> None:
     assert len(filmed(thinner(ardupilot).legs(Tolerance(10.0, radians(3.0), inf)))) < 10
 
 
+@pytest.mark.slow
 def test_legs_do_not_cut_a_clearance_that_the_curve_keeps() -> None:
     # A tank inside the orbit, which the body sphere clears by 0.1 m.
     mission = orbit_mission()

@@ -83,6 +83,7 @@ def test_a_deviation_is_at_a_length_or_at_a_time() -> None:
     assert read.deviations == both
 
 
+@pytest.mark.slow
 def test_the_same_bytes_twice_and_after_reading() -> None:
     again = EMITTER.emit(verified(orbit_plan())).artifacts[0]
     assert again.name == "plan.json"
@@ -124,6 +125,7 @@ def test_spans_that_are_used_travel_and_others_do_not() -> None:
     assert found.keys == {("drones", "cam1"): Span(3, 1, 3, 5)}
 
 
+@pytest.mark.slow
 def test_unlimited_heights_and_missing_origins_survive() -> None:
     mission = orbit_plan(origin=False).trajectory.keyframes.mission
     sky = Zone(

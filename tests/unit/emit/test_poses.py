@@ -54,6 +54,7 @@ def test_the_three_ways_to_write_a_rotation_are_one() -> None:
     assert steps.min() > 0.0
 
 
+@pytest.mark.slow
 def test_tum_has_the_camera_at_every_tick() -> None:
     rows, state = rows_of(PLAN), DRONE.curve(TICKS)
     assert rows[:, 0] == pytest.approx(TICKS, abs=1e-6)
@@ -78,6 +79,7 @@ def test_evo_reads_the_poses_and_finds_nothing_wrong(tmp_path) -> None:
     assert np.arctan2(aim[:, 1], aim[:, 0]) == pytest.approx(np.angle(np.exp(1j * eyes.yaw)), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_setpoints_count_from_the_pad_with_north_first_and_down_positive() -> None:
     (artifact,) = ned.EMITTER.emit(PLAN).artifacts
     assert artifact.name == "cam1-ned.csv"

@@ -30,6 +30,7 @@ def config(data: bytes, name: str = "waylines.wpml") -> dict[str, str | None]:
     return {e.tag.rpartition("}")[2]: e.text for e in mission.iter()}
 
 
+@pytest.mark.slow
 def test_a_plan_of_qgroundcontrol_has_the_rally_points_at_the_height_of_the_return() -> None:
     safety = Safety("return", 45.0, RALLY)
     emission = MAVLINK.emit(retold(orbit_plan(), safety=safety))
@@ -44,6 +45,7 @@ def test_a_plan_of_qgroundcontrol_has_the_rally_points_at_the_height_of_the_retu
     assert "set NAV_DLL_ACT and NAV_RCL_ACT to 2 (return), and RTL_RETURN_ALT to 45 m" in told
 
 
+@pytest.mark.slow
 def test_without_a_height_rally_points_are_as_high_as_the_flight() -> None:
     emission = MAVLINK.emit(retold(orbit_plan(), safety=Safety(None, None, RALLY)))
     assert {p[2] for p in json.loads(emission.artifacts[0].data)["rallyPoints"]["points"]} == {20}

@@ -119,6 +119,7 @@ def test_the_map_is_valid_and_read_by_another_library(made: VerifiedIR) -> None:
     assert named["flight geography"].geometry.has_z
 
 
+@pytest.mark.slow
 def test_many_pads_are_one_mark() -> None:
     made = show_flights.plan(show_flights.mission(600), step=4.0)
     marks = {mark.findtext(f"{KML}name"): mark for mark in site(made).iter(f"{KML}Placemark")}

@@ -108,6 +108,7 @@ def test_a_change_of_the_source_changes_the_draw_where_it_is_alone() -> None:
     assert [m for m in drawn if m in other[1:]] == [m for m in draw(other[1:], 12, 0) if m in drawn]
 
 
+@pytest.mark.slow
 def test_an_equivalent_mutant_is_one_that_there_is() -> None:
     keys = {mutant.key for mutant in every(sorted({e.path for e in EQUIVALENTS}))}
     assert [e for e in EQUIVALENTS if e.key not in keys] == []

@@ -27,6 +27,7 @@ from tests.experiments.papers.shown import Lens, four_points, percentile, shown,
 TABLE = Table("Times", ("name", "s"), (("a < b", "1"), ("c", "20")), ("a note",), b"PNG")
 
 
+@pytest.mark.slow
 def test_missions_depend_on_the_seed_and_their_number_only():
     assert missions(5) == missions(12)[:5]
     assert missions(3, seed=8) != missions(3)

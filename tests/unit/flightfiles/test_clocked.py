@@ -218,6 +218,7 @@ def test_a_violation_that_no_place_of_the_file_shows_is_found(kind: int) -> None
     assert violation.found
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(data=st.data())
 def test_another_flight_through_the_rows_is_as_near_as_is_said(data: st.DataObject) -> None:

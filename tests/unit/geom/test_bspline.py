@@ -119,6 +119,7 @@ def test_a_part_of_a_curve_can_be_cut_out():
     assert part(s) == pytest.approx(curve(s), abs=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(widths, st.integers(0, 1000))
 def test_the_curve_stays_in_the_hull_of_its_points(steps, seed):

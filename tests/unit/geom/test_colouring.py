@@ -14,6 +14,7 @@ from shotc.geom.colouring import coloured, conflicts, fewest_colours
 places = st.lists(st.tuples(st.floats(-6, 6), st.floats(-6, 6)), min_size=1, max_size=60)
 
 
+@pytest.mark.slow
 @given(places, st.floats(0.1, 5.0))
 def test_two_of_one_colour_are_apart(points: list[tuple[float, float]], least: float) -> None:
     colours = coloured(points, least)

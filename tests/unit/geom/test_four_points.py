@@ -28,6 +28,7 @@ def test_seen_level_the_points_stand_where_they_are_said_to():
     assert top == pytest.approx(bottom)
 
 
+@pytest.mark.slow
 @given(
     st.floats(8, 90),
     st.floats(-0.4, 0.4),

@@ -120,6 +120,7 @@ def test_a_box_that_turns_is_a_box_at_every_time(
         np.testing.assert_allclose(loop, shape_contour(np.array(offset), one), atol=1e-9)
 
 
+@pytest.mark.slow
 @given(boxes, offsets)
 def test_the_gap_is_the_distance_from_its_solid(shape: BoxShape, place: tuple[float, float, float]) -> None:
     assert shape.gap(place) == pytest.approx(distance(shape.solid((0.0, 0.0, 0.0)), place), abs=1e-9)

@@ -125,6 +125,7 @@ def test_contours_of_many_eyes_agree_with_those_of_each() -> None:
         np.testing.assert_array_equal(cylinder_contour(offset, 2.0, 8.0), loop)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(angle, st.floats(-1.0, 1.0), st.floats(8.5, 40), st.floats(-1.5, 1.5), st.floats(0, 40))
 def test_prism_outline_contains_its_points_even_when_cut(

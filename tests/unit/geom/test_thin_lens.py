@@ -29,6 +29,7 @@ def test_the_limits_are_those_of_tables(focal_mm, aperture, focus_m, near_m, far
     assert far[0] == pytest.approx(far_m, rel=5e-3)
 
 
+@pytest.mark.slow
 @given(st.floats(0.005, 0.2), st.floats(0.7, 32.0), st.floats(0.5, 200.0), st.floats(1e-6, 1e-4))
 def test_at_the_limits_the_disc_has_the_size_of_the_circle(focal, aperture, focus, circle) -> None:
     near, far = limits(one(focal), aperture, one(focus), circle)
@@ -40,6 +41,7 @@ def test_at_the_limits_the_disc_has_the_size_of_the_circle(focal, aperture, focu
         assert blur(one(focal), aperture, one(focus), one(1e9))[0] <= circle * (1 + 1e-6)
 
 
+@pytest.mark.slow
 @given(st.floats(1.5, 6.0), st.floats(1.0, 8.0), st.floats(2.0, 60.0))
 def test_a_smaller_sensor_is_as_sharp_as_a_full_frame_stopped_down_by_the_crop(crop, aperture, focus) -> None:
     # The same picture: focal length and circle go with the width, the f-number of full frame against it.

@@ -20,6 +20,7 @@ def test_a_wrapped_angle_is_in_its_range_and_leads_to_the_same_place(angle):
     assert -pi < direction(angle) <= pi
 
 
+@pytest.mark.slow
 @given(some=st.lists(angles, min_size=1, max_size=9))
 def test_arrays_are_wrapped_to_the_bit_as_floats_are(some):
     assert wrapped(np.array(some)).tolist() == [wrapped(angle) for angle in some]

@@ -44,6 +44,7 @@ def test_a_thin_target_at_eye_level_has_the_size_of_its_height_over_the_picture_
     assert distance == pytest.approx(1.8 / (2 * 0.3 * tan(radians(35)) * 9 / 16), rel=1e-4)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(azimuth=angles, elevation=st.floats(-0.3, 1.3), uv=places, size=st.floats(0.03, 1.2))
 def test_the_distance_gives_the_size_that_verification_measures(azimuth, elevation, uv, size) -> None:
@@ -60,6 +61,7 @@ def test_the_distance_gives_the_size_that_verification_measures(azimuth, elevati
     assert (seen.u[0], seen.v[0]) == pytest.approx(uv, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(azimuth=angles, elevation=st.floats(-1.5, 1.5), near=st.floats(0.1, 5.0))
 def test_the_nearest_place_keeps_just_its_clearance(azimuth, elevation, near) -> None:
     toward = direction(azimuth, elevation)

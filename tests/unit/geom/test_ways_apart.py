@@ -47,6 +47,7 @@ def test_ways_that_cross_meet() -> None:
     assert found.proven <= found.attained
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(seed=st.integers(0, 10**6))
 def test_no_sample_is_nearer_than_what_is_proved(seed: int) -> None:

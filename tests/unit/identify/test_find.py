@@ -108,6 +108,7 @@ def cloud(triangles: np.ndarray, spacing: float, random: np.random.Generator) ->
     return np.repeat(points[:, None], 3, axis=1)
 
 
+@pytest.mark.slow
 def test_a_cloud_full_of_holes_gives_the_same_target():
     random = np.random.default_rng(2)
     tower, other = tube((0, 0), 8.0, 30.0), house(30, 14, (12, 12, 20))

@@ -73,6 +73,7 @@ def test_no_bytes_make_a_traceback(code: bytes) -> None:
 COLORS = st.tuples(st.integers(0, 255), st.integers(0, 255), st.integers(0, 255))
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.integers(1, 300), COLORS), min_size=1, max_size=8))
 def test_what_we_write_is_read(steps: list[tuple[int, tuple[int, int, int]]]) -> None:
     at, colors = [0], [(0, 0, 0)]

@@ -24,6 +24,7 @@ def test_listed_beats_are_as_listed_and_parts_lie_between_them(beat: float, time
     assert LISTED.time(beat) == (None if time is None else pytest.approx(time))
 
 
+@pytest.mark.slow
 @given(st.floats(0.0, 50.0), st.lists(st.floats(0.01, 9.0), min_size=1, max_size=30), st.floats(0.0, 200.0))
 def test_the_next_beat_is_the_first_that_is_not_before(start: float, gaps: list[float], time: float) -> None:
     listed = tuple(sum(gaps[: k + 1]) for k in range(len(gaps)))

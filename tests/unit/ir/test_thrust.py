@@ -32,6 +32,7 @@ def test_thrust_that_does_not_point_up_counts_as_upside_down() -> None:
     assert lean(np.array([1.0, 0.0, -G_M_S2])) == pytest.approx(np.pi)
 
 
+@pytest.mark.slow
 @given(VECTOR, st.floats(-3.0, 3.0))
 def test_the_lean_is_that_of_roll_and_pitch_in_equation_4(a: np.ndarray, yaw: float) -> None:
     size = G_M_S2 * float(thrust_to_weight(a))
@@ -52,6 +53,7 @@ def test_no_instant_leans_further_than_the_bound(ctrl: np.ndarray) -> None:
     assert bound.attained >= seen - 2e-6 or bound.proven == pytest.approx(bound.attained, abs=2e-6)
 
 
+@pytest.mark.slow
 @given(VECTOR, st.floats(2.0, 75.0), st.floats(1.03, 3.0))
 def test_the_usable_ball_keeps_every_limit_and_touches_one(a: np.ndarray, tilt: float, ratio: float) -> None:
     limits = LIMITS._replace(tilt=radians(tilt), thrust_to_weight=ratio)

@@ -104,6 +104,7 @@ def test_an_image_is_refused_by_its_header(tmp_path: Path) -> None:
     assert "10000 x 2500" in found.help
 
 
+@pytest.mark.slow
 def test_a_film_of_too_many_frames_is_refused(tmp_path: Path) -> None:
     (tmp_path / "long.gif").write_bytes(gif(MOST_FRAMES + 1))
     (found,) = checked(tmp_path, "{image: {file: long.gif}}").diagnostics

@@ -169,6 +169,7 @@ def deepest(start: tuple[float, float, float], end: tuple[float, float, float]) 
     return float((way[:, 2] - 0.9 - under(relief(), way)).min())
 
 
+@pytest.mark.slow
 def test_a_track_that_leads_through_a_rise_between_its_points_is_told_and_a_lift_mends_it(folder):
     ends = [(x, y, ground(x, y) + 0.9) for x, y in ((-100.0, -60.0), (150.0, 90.0))]
     depth = -deepest(*ends)

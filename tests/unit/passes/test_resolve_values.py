@@ -123,6 +123,7 @@ def test_the_least_time_from_rest_to_rest() -> None:
 positions = st.tuples(st.floats(-50, 50), st.floats(-50, 50), st.floats(0, 50))
 
 
+@pytest.mark.slow
 @given(positions, positions)
 def test_a_straight_trapezoidal_flight_is_never_faster_than_the_bound(p: Vec3, q: Vec3) -> None:
     # Fly straight with each axis scaled to its own limit: a feasible flight, so the bound lies below it.

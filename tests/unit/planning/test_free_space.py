@@ -46,6 +46,7 @@ def hulls(count):
     return st.lists(points, min_size=count, max_size=count).map(np.array)
 
 
+@pytest.mark.slow
 @given(solids, points)
 def test_many_points_at_once_agree_with_one_at_a_time(solid, p):
     assert float(distances(solid, p)) == pytest.approx(distance(solid, tuple(p)), abs=1e-9)
@@ -55,6 +56,7 @@ def test_many_points_at_once_agree_with_one_at_a_time(solid, p):
     )
 
 
+@pytest.mark.slow
 @given(solids, points)
 def test_support_agrees(solid, n):
     assert float(support(solid, n)) == pytest.approx(solid.support(tuple(n)), abs=1e-9)

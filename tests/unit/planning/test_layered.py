@@ -41,12 +41,14 @@ def test_a_course_through_a_house_leads_round_it_and_comes_back(turn):
     assert off.max() < 12.0
 
 
+@pytest.mark.slow
 def test_a_course_inside_of_a_building_all_the_while_leads_beside_it():
     hall = turned(house(60.0, 16.0, 30.0, 35.0), 0.0, (0.0, -6.0))
     course = led_round(space_of(hall), (), (TIMES, STRAIGHT)).places
     assert (course[:, 1] >= 2.0 + CLEARANCE).all()
 
 
+@pytest.mark.slow
 def test_a_course_keeps_clear_of_what_moves_beside_a_house():
     made = turned(house(9.0, 8.0, 6.0, 9.0), 0.0, (0.0, 3.0))
     bus = Moving(

@@ -28,6 +28,7 @@ def test_roll_is_read_back(yaw, pitch, roll):
     assert abs(float(angles_of(tilted)[2][0])) == pytest.approx(abs(roll), abs=1e-9)
 
 
+@pytest.mark.slow
 @given(st.tuples(*[st.floats(-4.0, 4.0)] * 3))
 def test_a_rotation_vector_turns_as_the_exponential_map_does(vector):
     axes = axes_of(np.array([0.3]), np.array([-0.4]))

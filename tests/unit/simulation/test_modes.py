@@ -40,6 +40,7 @@ def mean(off: Array, start: float, end: float) -> float:
     return float(off[round(start / EVERY) : round(end / EVERY)].mean())
 
 
+@pytest.mark.slow
 def test_it_is_calm_on_a_straight_way_and_follows_at_a_corner() -> None:
     both, calm, agile = errors(CALM, AGILE), errors(CALM), errors(AGILE)
     straight, corner = (6.0, CORNER_S - 0.5), (CORNER_S + 1.0, CORNER_S + 4.0)
@@ -49,6 +50,7 @@ def test_it_is_calm_on_a_straight_way_and_follows_at_a_corner() -> None:
     assert mean(both, *corner) < 1.3 * mean(agile, *corner)
 
 
+@pytest.mark.slow
 def test_one_model_is_the_filter_itself_and_alike_models_are_one() -> None:
     assert errors(AGILE, AGILE) == pytest.approx(errors(AGILE), abs=1e-9)
 

@@ -51,6 +51,7 @@ def integrated(motion, seconds, steps=20_000):
     return f, q
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seconds", [0.1, 4.0])
 def test_who_weaves_comes_back_to_his_way(seconds):
     f, q = integrated(WEAVER, seconds)
@@ -201,6 +202,7 @@ def test_a_detection_from_a_camera_that_has_its_target_behind_it_changes_nothing
     assert np.isfinite(under_test.now(1.0).covariance).all()
 
 
+@pytest.mark.slow
 @given(*[st.floats(-3.0, 3.0)] * 2, st.floats(5.0, 30.0), st.floats(-3.0, 3.0), st.floats(-1.2, 1.2))
 def test_the_derivative_of_the_picture_is_its_slope(x, y, z, yaw, pitch):
     axes, half = axes_of(np.array([yaw]), np.array([pitch])), np.array([[0.5, 0.3]])

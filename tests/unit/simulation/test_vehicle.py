@@ -12,6 +12,7 @@ def flown(vehicle, state, asked, wind, seconds, error=0.0):
     return state
 
 
+@pytest.mark.slow
 def test_a_drone_comes_to_rest_where_it_is_asked_to_be():
     goal = np.array([[3.0, -2.0, 5.0]])
     state = flown(Vehicle(), VehicleState.at_rest(STILL), VehicleSetpoint(goal, STILL, STILL), STILL, 30.0)

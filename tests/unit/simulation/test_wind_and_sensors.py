@@ -72,6 +72,7 @@ def test_no_position_arrives_while_it_is_lost():
     assert [within(t, conditions.lost("cam")) for t in (9.9, 10.0, 15.0)] == [False, True, False]
 
 
+@pytest.mark.slow
 def test_without_satellites_a_drone_drifts_by_its_inertial_sensors_and_comes_back():
     times = np.arange(1150) * 0.02
     plain = RTK.own_error(times, chances(150))
@@ -114,6 +115,7 @@ WAY = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (60.0, 0.0, 0.9)))
 WALKER = Target("walker", (0.0, 0.0, 0.9), CylinderShape(0.4, 1.8), (), WAY)
 
 
+@pytest.mark.slow
 def test_a_target_wanders_smoothly_about_its_track_from_its_start_on():
     times = np.arange(6000) * 0.01
     places = Truth(wander=0.5).places(WALKER, times, chances(200))

@@ -250,6 +250,7 @@ def test_cell_times_are_exact_for_constant_jerk():
     assert cell_times(np.diff(t**3), 9 * t**4, 6 * t) == pytest.approx(np.diff(t), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path",
     [

@@ -163,6 +163,7 @@ def test_an_accepted_name_is_one_safe_file_name(text):
     assert name.isprintable()
 
 
+@pytest.mark.slow
 @given(st.lists(st.sampled_from(["..", ".", "a", "...", "", "\\", "c:", "~", " "]), max_size=6).map("/".join))
 def test_an_accepted_path_stays_in_its_folder(text):
     try:

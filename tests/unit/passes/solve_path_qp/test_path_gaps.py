@@ -34,6 +34,7 @@ def test_a_gap_that_the_drone_fits_through_is_used(width):
     assert np.abs(between[:, 1]).max() <= width / 2 - 0.6
 
 
+@pytest.mark.slow
 def test_a_gap_too_narrow_is_named_with_its_width():
     south = out("south", block((-1, 1), (-90, -0.4), (0, 70)))
     north = out("north", block((-1, 1), (0.4, 90), (0, 70)))
@@ -101,6 +102,7 @@ def test_a_pad_that_cannot_be_left_says_why(zones, home, words):
     assert any(d.code == "Q002" and words in d.message for d in outcome.diagnostics)
 
 
+@pytest.mark.slow
 def test_a_pad_deep_under_something_is_led_out_from_under_it():
     roof = out("roof", block((-12, 12), (-72, -48), (2, 30)))
     frames = shot([free(0, (0, 0, 8)), free(1, (9, 0, 8))])

@@ -43,6 +43,7 @@ def test_a_whole_flight_is_sound_in_every_body_mode(body):
     assert [leg.phase for leg in path.drones[0].legs] == ["takeoff", "transit", "shot", "return", "land"]
 
 
+@pytest.mark.slow
 def test_placed_keyframes_are_passed_exactly_with_their_angles():
     made = mission(TREE, HOUSE, inside("field", FIELD))
     keyframes = [

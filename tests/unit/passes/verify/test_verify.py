@@ -68,6 +68,7 @@ def test_known_values() -> None:
     assert claim(PLAN, "tower in frame").method == "bounded"
 
 
+@pytest.mark.slow
 def test_energy_is_that_of_the_samples_and_of_no_shot_more_than_of_the_flight() -> None:
     power = Power(2.0, 3e5, 4, 0.127, 0.5, 0.2)
     found = [c for c in verdict_on(with_drone(power=power)).certificate if c.constraint == "energy"]

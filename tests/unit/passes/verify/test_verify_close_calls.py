@@ -55,6 +55,7 @@ def test_a_zone_is_grazed_to_the_millimetre(gap: float, broken: bool) -> None:
     assert found.position == pytest.approx((40.0, 0.0, 20.0), abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_hold_that_stands_still_is_met() -> None:
     curve = PLAN.drones[0].curve
     still = curve(52.0)
@@ -91,6 +92,7 @@ def other_drone(ir: TrajectoryIR, offset: tuple[float, float, float]) -> Traject
     return with_mission(both, drones=(*mission.drones, drone))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("apart", "broken"), [(3.01, False), (2.99, True)])
 def test_separation_of_two_drones(apart: float, broken: bool) -> None:
     verdict = verdict_on(other_drone(PLAN, (0.0, 0.0, 0.0 + apart)))

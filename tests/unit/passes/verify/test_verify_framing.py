@@ -193,6 +193,7 @@ def before_the_first_frame(promise: Promise) -> TrajectoryIR:
     return with_mission(zones=(*MISSION.zones, wall), shots=(shot,))
 
 
+@pytest.mark.slow
 def test_a_reveal_is_held_at_its_ends_and_being_hidden_meanwhile_is_meant() -> None:
     ir = before_the_first_frame(Promise(reveal=(0.0, 1.0)))
     made = {c.constraint: c for c in verdict_on(ir).certificate if c.shot == "half"}
@@ -224,6 +225,7 @@ def promising(promise: Promise, ir: TrajectoryIR = PLAN) -> list[Diagnostic]:
     return list(verdict_on(with_mission(ir, shots=(shot,))).diagnostics)
 
 
+@pytest.mark.slow
 def test_a_broken_size_is_told_by_what_is_seen_and_a_range_to_paste() -> None:
     (found,) = promising(Promise(size=(0.01, 0.7)))
     assert found.message == "tower fills 0.8101 of the frame's height in shot `half`, 0.7 is promised at most"

@@ -46,6 +46,7 @@ def test_the_distance_that_is_claimed_is_that_of_the_body_as_it_flies():
     assert Verify().run(ir, CONTEXT).value is not None
 
 
+@pytest.mark.slow
 def test_a_flight_too_near_to_a_house_is_refused_at_the_rule():
     middle = places("shot")[len(places("shot")) // 2]
     made, ir = beside(middle[:2], more=middle[2] - 10.0)

@@ -133,6 +133,7 @@ def test_a_claim_that_is_broken_tells_a_proved_bound_too(visibility: str) -> Non
     assert dense - 0.002 * abs(dense) <= found.worst <= dense
 
 
+@pytest.mark.slow
 def test_what_is_proved_is_below_and_what_is_attained_is_met() -> None:
     spin = through([0.0, LENGTH], [EYE, EYE + np.array([0, 0, 5, 2.0, -0.4, 0, -0.3])])
     sight = CameraAndBody(mission(), film("eye", spin), unfilmed("bird", still(at(-3.0, 25.0, 12.0))))
@@ -149,6 +150,7 @@ def test_strengths() -> None:
     assert claims(mission(visibility="off"), *seen) == []
 
 
+@pytest.mark.slow
 def test_who_flies_close_and_fast_about_the_camera_is_still_proved() -> None:
     # Both circle: the value hardly changes, while every bound on its rate is large.
     t = np.linspace(0.0, LENGTH, 81)

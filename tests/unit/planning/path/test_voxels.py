@@ -44,6 +44,7 @@ def test_a_way_leads_through_a_gate():
     assert way[:, 2].max() < 9.0 - CLEARANCE
 
 
+@pytest.mark.slow
 def test_a_way_leads_over_a_wall_whose_gate_is_too_narrow():
     way = find_route(space_of(arch_wall(400.0, 12.0, 4.0, 9.0)), A, B)
     assert way is not None

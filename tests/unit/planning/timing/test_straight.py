@@ -28,6 +28,7 @@ def line(**goes: float) -> Piecewise:
     return Piecewise(np.array([0.0, 0.4, 1.0]), np.stack([part[:, None] * end for part in share]))
 
 
+@pytest.mark.slow
 @given(BOUNDS, st.floats(1e-2, 1e3))
 def test_the_motion_keeps_its_limits_and_ends_at_rest_where_it_is_to(
     bounds: LineLimits, distance: float

@@ -30,6 +30,7 @@ def speed_used(velocity: np.ndarray, wind: tuple[float, float]) -> float:
     return float(level.rate_used(velocity)) / CEILING.speed
 
 
+@pytest.mark.slow
 @given(VELOCITY, WIND)
 def test_a_velocity_slowed_by_what_it_uses_is_at_the_limit_of_airspeed(
     velocity: np.ndarray, wind: tuple[float, float]

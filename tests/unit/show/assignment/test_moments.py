@@ -92,6 +92,7 @@ def test_a_plan_whose_picture_stands_off_its_beat_is_refused(plan: VerifiedIR) -
     assert claim.worst == pytest.approx(0.01)
 
 
+@pytest.mark.slow
 def test_the_show_file_carries_the_song_and_when_it_begins(plan: VerifiedIR) -> None:
     emission = EMITTER.emit(plan)
     with ZipFile(io.BytesIO(emission.artifacts[0].data)) as zipped:

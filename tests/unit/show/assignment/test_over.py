@@ -94,6 +94,7 @@ def test_over_a_ridge_of_known_height_the_fleet_rises_by_what_it_lacks_and_littl
     assert mover.sky.lack(ends, move).metres <= 1e-6
 
 
+@pytest.mark.slow
 def test_drones_that_rise_together_are_as_far_apart_as_on_level_ways() -> None:
     mission, swarm = world(terrain=terrain(ridge(50.0)))
     ends = sheet(-20.0, 30.0), sheet(120.0, 34.0, 5.0)
@@ -113,6 +114,7 @@ def test_where_nothing_is_in_the_way_a_move_over_terrain_is_that_over_flat_groun
     assert (over.piece, over.s.tolist()) == (flat.piece, flat.s.tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ["auto", "straight", "arc"])
 def test_a_house_between_two_pictures_is_passed_at_its_clearance(path: str) -> None:
     centre, size = (60.0, 0.0, 25.0), (20.0, 60.0, 50.0)
@@ -126,6 +128,7 @@ def test_a_house_between_two_pictures_is_passed_at_its_clearance(path: str) -> N
     assert keeps_limits(ends, move)
 
 
+@pytest.mark.slow
 def test_a_zone_in_straight_ways_is_passed_over() -> None:
     wall = Zone("wall", "out", box((60.0, 0.0, 20.0), (4.0, 2000.0, 40.0), 0.0), ("world", "zones", "wall"))
     mission, swarm = world(zones=(wall,))

@@ -165,6 +165,7 @@ def claim_of(ir: ShowIR, flight: FleetTrajectory, drawn: Picture) -> tuple[bool,
     return all(c.holds for c in found), max(c.worst for c in found)
 
 
+@pytest.mark.slow
 def test_a_wave_is_flown_as_it_was_proved_and_nothing_bends_it() -> None:
     drawn = asked(wave=wave(3.0), transition=16.0, at=90.0)
     ir = flown(picture(path=("shots", 0, "frames", 0)), drawn)

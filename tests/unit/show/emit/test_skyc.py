@@ -174,6 +174,7 @@ def test_the_camera_sees_the_show(eye: tuple[float, float, float] | None) -> Non
     assert np.abs(local[:, 1] / local[:, 2]).max() < half / ASPECT
 
 
+@pytest.mark.slow
 def test_the_same_plan_gives_the_same_bytes() -> None:
     assert EMITTER.emit(show_flights.plan()).artifacts == EMITTER.emit(show_flights.plan()).artifacts
 
@@ -191,6 +192,7 @@ def test_a_show_may_be_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [d.code for d in emission.diagnostics] == ["E112"]
 
 
+@pytest.mark.slow
 def test_a_zone_that_the_pads_are_outside_of_is_no_fence() -> None:
     stage = replace(show_flights.FIELD, name="stage", solid=Cylinder((0.0, 60.0), 30.0, 20.0, 80.0))
     plan = show_flights.plan(show_flights.mission(zones=(show_flights.FIELD, stage)))

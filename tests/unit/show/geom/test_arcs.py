@@ -105,6 +105,7 @@ def test_the_way_is_the_shortest_outside_the_circle(gaps: Gaps) -> None:
         assert length == pytest.approx(closed, rel=1e-6)
 
 
+@pytest.mark.slow
 @given(gaps_of_balls)
 def test_straight_ways_are_enough_exactly_where_they_stay_outside(gaps: Gaps) -> None:
     s = np.linspace(0.0, 1.0, 2001)
@@ -113,6 +114,7 @@ def test_straight_ways_are_enough_exactly_where_they_stay_outside(gaps: Gaps) ->
         assert gaps.straight == (least > 1.0)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**31))
 def test_splines_are_sampled_where_they_are(seed: int) -> None:
     ctrl = np.random.default_rng(seed).uniform(-1.0, 1.0, (9, 2))

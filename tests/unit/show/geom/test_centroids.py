@@ -62,6 +62,7 @@ def test_every_point_is_of_its_nearest_goal() -> None:
     assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
 
 
+@pytest.mark.slow
 def test_every_point_is_of_its_nearest_goal_whatever_they_begin_with() -> None:
     """Also where goals begin at one place, or far off, and all move far: nothing is missed."""
     points = ball_of(3000)
@@ -93,6 +94,7 @@ def test_the_cost_that_is_told_is_that_of_a_plain_search() -> None:
     assert found.costs[-1] == pytest.approx(coverage(points, found.goals), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_cost_is_that_of_the_reference() -> None:
     # Per point of a unit ball with 20 goals: 0.0904, measured elsewhere by plain steps.
     cost = coverage(ball_of(20_000), centroids(ball_of(20_000), 20).goals) / 20_000
@@ -139,6 +141,7 @@ def test_without_a_weight_on_the_picture_goals_stay() -> None:
     assert (viewpoint_centroids(points, goals, EYE, inf).goals == goals).all()
 
 
+@pytest.mark.slow
 def test_goals_that_begin_with_the_frame_before_follow_it() -> None:
     points = ball_of(6000)
     first = centroids(points, 100).goals

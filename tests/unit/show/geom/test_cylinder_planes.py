@@ -80,6 +80,7 @@ def test_the_least_of_the_formations_is_at_most_one() -> None:
 scalars = st.lists(st.floats(0.0, 1.3), min_size=4, max_size=4)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**31), st.integers(2, 40), st.lists(scalars, min_size=3, max_size=3), scalars)
 def test_whatever_keeps_the_half_planes_keeps_all_pairs_about_a_motion_apart(
@@ -103,6 +104,7 @@ def test_whatever_keeps_the_half_planes_keeps_all_pairs_about_a_motion_apart(
             assert enough[near].min() >= 1.0 - 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 2**31), st.integers(2, 40), st.lists(scalars, min_size=3, max_size=3))
 def test_the_least_distance_is_that_of_all_pairs(seed: int, count: int, motion: list[list[float]]) -> None:

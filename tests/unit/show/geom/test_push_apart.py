@@ -17,6 +17,7 @@ def anywhere(_: Array, after: Array) -> Array:
     return after
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10_000), st.integers(2, 120), st.floats(0.05, 0.9))
 def test_goals_end_apart_and_near_their_shape(seed: int, n: int, density: float) -> None:

@@ -85,6 +85,7 @@ def test_thousands_of_pads_in_one_place_are_soon_told() -> None:
     assert found.share < 1e-5
 
 
+@pytest.mark.slow
 @given(solids, st.tuples(*[st.floats(-1.3, 1.3)] * 3))
 def test_how_deep_a_point_lies_agrees_with_the_shape(source: Source, share: Vec3) -> None:
     low, high = bounds(source) or ((0.0,) * 3, (0.0,) * 3)
@@ -178,6 +179,7 @@ def test_a_lattice_on_the_faces_of_a_cube_never_beats_the_bound(n: int) -> None:
     assert on_faces <= most_drones(picture(Box(CENTRE, (side, side, side), 0.3), "surface"), apart)
 
 
+@pytest.mark.slow
 @given(st.floats(3, 20), st.floats(0.5, 3), angles, angles)
 def test_balls_of_a_ring_go_round_its_axis(radius: float, tube: float, heading: float, tilt: float) -> None:
     axis = (sin(tilt) * sin(heading), sin(tilt) * cos(heading), cos(tilt))

@@ -123,6 +123,7 @@ def test_a_level_mesh_has_no_height_to_scale() -> None:
     assert fault({"a.ply": ply(sheet)}, "surface", 10.0).code == "D050"
 
 
+@pytest.mark.slow
 def test_frames_of_different_units() -> None:
     files = {"a.ply": ply(BALL), "b.ply": ply(BALL * 1.5), "c.ply": ply(BALL * 1500)}
     told = fault(files)
@@ -195,6 +196,7 @@ def test_meshes_of_a_scene_stand_where_its_nodes_place_them() -> None:
     assert body.mesh.corners.max(axis=0) == pytest.approx([21, 1.5, 14])
 
 
+@pytest.mark.slow
 def test_a_scene_that_multiplies_its_meshes_without_end_is_refused() -> None:
     files = {"a.glb": glb(BALL, *[(float(k), 0.0, 0.0) for k in range(2000)])}
     found = fault(files)

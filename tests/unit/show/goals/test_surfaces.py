@@ -42,6 +42,7 @@ def places(seed: int, count: int, spread: float) -> Array:
     return p
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(25, 500), deadline=None)
 @given(st.integers(0, 2**31), st.floats(1.0, 60.0))
 def test_what_lacks_room_is_what_is_too_low_or_too_near(seed: int, spread: float) -> None:
@@ -55,6 +56,7 @@ def test_what_lacks_room_is_what_is_too_low_or_too_near(seed: int, spread: float
     assert (lack[clear] <= 1e-9).all()  # with a clearance of two metres no slope here is as near as a body
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(25, 500), deadline=None)
 @given(st.integers(0, 2**31), st.floats(1.0, 60.0), st.booleans())
 def test_places_that_rise_by_what_is_told_are_clear(seed: int, spread: float, every: bool) -> None:

@@ -73,6 +73,7 @@ def within_limits(flight: FleetTrajectory) -> bool:
     return bool((overdraft(flight.breaks, flight.coef, DerivativeBounds(LIMITS)) <= 0.0).all())
 
 
+@pytest.mark.slow
 def test_ball_cube_ring() -> None:
     ir = morph(60)
     flight = flown(ir)

@@ -47,6 +47,7 @@ def cost(breaks: Array, coef: Array, wanted: Array) -> Array:
     return np.asarray(np.einsum("nkd,kl,nld->n", shift, deviation(breaks), shift))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("per_axis", [False, True])
 @pytest.mark.parametrize(("size", "period"), [(2.0, 1.5), (0.4, 0.4)])
 def test_the_deviation_is_the_least_there_is(size: float, period: float, per_axis: bool) -> None:

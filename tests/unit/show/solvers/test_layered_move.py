@@ -22,6 +22,7 @@ def flown(move: LayeredMove, heights: list[float], down: bool) -> tuple[np.ndarr
     return PIECE_S * np.arange(coef.shape[1] - 2, dtype=np.float64), coef
 
 
+@pytest.mark.slow
 @given(
     st.integers(2, 7),
     st.floats(0.5, 6.0),

@@ -106,6 +106,7 @@ def test_gusts_leave_nobody_behind_either():
     assert printed.error.max() > 2.0
 
 
+@pytest.mark.slow
 def test_a_look_ahead_leads_by_its_time():
     path = spline([[2.0 * k, 0, 5] for k in range(15)])
     flown = fly(*path, FleetConditions(gains=Gains(ahead=0.1)))
