@@ -44,7 +44,7 @@ class Mutant:
     """One edit of a file.
 
     start, end : offsets in its text, characters; first, last : lines of the statement (of its head where it
-    holds others), from 1; line : of the edit
+    holds others), from 1; line, column : of the edit, from 1
     """
 
     path: str
@@ -53,6 +53,7 @@ class Mutant:
     new: str
     old: str
     line: int
+    column: int
     first: int
     last: int
     source: str
@@ -101,9 +102,10 @@ class _Finder(ast.NodeVisitor):
 
     def add(self, start: int, end: int, new: str) -> None:
         line = self.text.count("\n", 0, start) + 1
+        column = start - self.offsets[line - 1] + 1
         source = self.lines[line - 1].strip()
         old = self.text[start:end]
-        self.mutants.append(Mutant(self.path, start, end, new, old, line, *self.statement, source))
+        self.mutants.append(Mutant(self.path, start, end, new, old, line, column, *self.statement, source))
 
     def visit(self, node: ast.AST) -> None:
         outer = self.statement

@@ -137,7 +137,7 @@ def test_equivalent_mutants_are_not_counted() -> None:
     trials = [Trial(mutant, verdict, 1) for verdict, count in ends for _ in range(count)]
     text, share = report(trials)
     assert share == 0.9
-    assert "survived   m.py:1  +  ->  -  in  a + b" in text
+    assert "survived   m.py:1:3  +  ->  -  in  a + b" in text
 
 
 BODIES = """\

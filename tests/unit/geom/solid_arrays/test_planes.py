@@ -1,0 +1,47 @@
+"""Separating planes: what a normal and its gap prove, for one point outside, and for one inside."""
+
+from __future__ import annotations
+
+from math import cos, pi
+
+import numpy as np
+import pytest
+
+from shotc.geom import solids
+from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solids import Cylinder, Prism, Solid
+
+ROUND = Cylinder((3.0, -4.0), 6.0, -5.0, 8.0)
+SQUARE = Prism(((-10.0, -9.0), (10.0, -9.0), (10.0, 9.0), (-10.0, 9.0)), -5.0, 8.0)
+
+
+def points(low: tuple[float, ...], high: tuple[float, ...], count: int = 200) -> np.ndarray:
+    return np.random.default_rng(5).uniform(low, high, (count, 3))
+
+
+@pytest.mark.parametrize("solid", [ROUND, SQUARE])
+def test_the_gap_of_a_point_outside_is_its_distance(solid: Solid) -> None:
+    p = points((-40.0, -40.0, -40.0), (40.0, 40.0, 40.0))
+    far = np.array([solids.distance(solid, tuple(each)) for each in p])
+    normals, gap = separate(solid, p[far > 0.1, None])
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
+    assert gap == pytest.approx(far[far > 0.1], rel=1e-6)
+
+
+def test_a_point_in_a_box_leaves_by_the_nearest_side_or_the_top() -> None:
+    p = points((-10.0, -9.0, -5.0), (10.0, 9.0, 8.0))
+    ways = np.column_stack([10.0 - np.abs(p[:, 0]), 9.0 - np.abs(p[:, 1]), 8.0 - p[:, 2]])
+    normals, gap = separate(SQUARE, p[:, None])
+    assert -gap == pytest.approx(ways.min(axis=1), abs=1e-9)
+    assert np.abs(normals).argmax(axis=1).tolist() == ways.argmin(axis=1).tolist()
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
+
+
+def test_a_point_in_a_cylinder_leaves_by_its_side_or_top_within_an_eighth_of_a_turn() -> None:
+    p = points((-3.0, -10.0, -5.0), (9.0, 2.0, 8.0))
+    out = np.hypot(p[:, 0] - 3.0, p[:, 1] + 4.0)
+    p, out = p[out < 6.0], out[out < 6.0]
+    normals, gap = separate(ROUND, p[:, None])
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
+    assert (-gap >= np.minimum(6.0 - out, 8.0 - p[:, 2]) - 1e-9).all()
+    assert (-gap <= np.minimum(6.0 - out * cos(pi / 8), 8.0 - p[:, 2]) + 1e-9).all()
