@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from math import inf, isfinite
+from math import inf, isclose
 
 from shotc.ir.measures import distinct_measures
 from shotc.ir.trajectory import Claim
@@ -96,6 +96,4 @@ def _unit(unit: str) -> str:
 
 
 def _same(a: float, b: float) -> bool:
-    if not (isfinite(a) and isfinite(b)):
-        return a == b
-    return abs(a - b) <= LIMIT_TOLERANCE * max(1.0, abs(a), abs(b))
+    return isclose(a, b, rel_tol=LIMIT_TOLERANCE, abs_tol=LIMIT_TOLERANCE)

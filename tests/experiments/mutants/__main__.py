@@ -112,7 +112,8 @@ def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Names
 def line(trial: Trial) -> str:
     """Return what became of a mutant, on one line."""
     mutant = trial.mutant
-    return f"{trial.verdict:10} {mutant.path}:{mutant.line}:{mutant.column}  {mutant.change}  in  {mutant.source}"
+    place = f"{mutant.path}:{mutant.line}:{mutant.column}"
+    return f"{trial.verdict:10} {place}  {mutant.change}  in  {mutant.source}"
 
 
 def report(trials: Sequence[Trial]) -> tuple[str, float]:

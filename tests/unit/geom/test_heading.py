@@ -7,7 +7,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
+from shotc.geom.bernstein import Array, Piecewise, bernstein_basis, quintic_hermite
 from shotc.geom.heading import _bounds, _Motion, sup_off_course
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.vec import wrapped
@@ -79,3 +79,23 @@ def test_the_bound_on_each_piece_holds(spread: float) -> None:
     upper, middle = _bounds(_Motion(velocity, velocity.derivative(), heading, heading.derivative()))
     assert (upper >= off.max(axis=1) - 1e-9).all()
     assert middle == pytest.approx(off[:, 32], abs=1e-9)
+
+
+@pytest.mark.parametrize("faster", [3.0, -3.0])
+@pytest.mark.parametrize("early", [False, True])
+def test_the_bound_holds_where_a_heading_leaves_the_course_of_a_curve(faster: float, early: bool) -> None:
+    """On 11 degrees of a circle, with the course at one end; there the bound by rates is the nearer one."""
+    half = 0.1
+    ends = np.array([-half, half])
+    out = np.column_stack([np.sin(ends), 1 - np.cos(ends)])
+    on, back = np.column_stack([np.cos(ends), np.sin(ends)]), np.column_stack([-np.sin(ends), np.cos(ends)])
+    circle = pieces(quintic_hermite(ends, 10.0 * out, 10.0 * on, 10.0 * back))
+    t, begin = np.linspace(-1.0, 1.0, 6) * half, half if early else -half
+    # The control points of x^2 are those of a parabola: its blossom at two of its five places.
+    square = half**2 * np.array([1.0, 0.2, -0.2, -0.2, 0.2, 1.0])
+    heading = t + faster * (square - 2.0 * begin * t + begin**2)
+    flown = Pieces(circle.low, circle.high, np.concatenate([circle.ctrl, heading[None, :, None]], axis=2))
+    velocity, turning = flown.channels(0, 1).derivative(), flown.channels(2)
+    upper, _ = _bounds(_Motion(velocity, velocity.derivative(), turning, turning.derivative()))
+    most = abs(faster) * (2.0 * half) ** 2
+    assert most - 1e-6 <= upper[0] <= 1.6 * most

@@ -70,6 +70,22 @@ def test_the_nearest_place_keeps_just_its_clearance(azimuth, elevation, near) ->
     assert MAN.shape.gap((x, y, z)) == pytest.approx(near, abs=1e-6)
 
 
+@pytest.mark.parametrize(("yaw", "pitch"), [(0.6, 0.0), (-0.62, 0.0), (0.0, 0.4), (0.0, -0.37), (0.0, 0.0)])
+def test_a_subject_extends_out_of_the_frame_by_its_point_farthest_out(yaw: float, pitch: float) -> None:
+    turn = np.linspace(0, 2 * pi, 4000)
+    rim = np.column_stack([12.0 + 0.4 * np.cos(turn), 0.4 * np.sin(turn)])
+    camera = view(yaw, pitch, LENS.hfov, LENS.aspect)
+    points = [camera.project((rim[:, 0], rim[:, 1], np.full(len(rim), z)))[:2] for z in (-0.9, 0.9)]
+    farthest = float(np.abs(points).max()) - 1.0
+    seen = judged((-12.0, 0.0, 20.0, yaw, pitch), LENS, MAN)
+    assert seen is not None
+    assert seen.out == pytest.approx(max(0.0, farthest), abs=1e-5)
+    assert (seen.out == 0.0) is ((yaw, pitch) == (0.0, 0.0))
+    larger = judged((-12.0, 0.0, 20.0, yaw, pitch), LENS, MAN._replace(size=1.2))
+    assert larger is not None
+    assert larger.out == 0.0
+
+
 def test_the_lens_that_gives_a_size_gives_it() -> None:
     offset = (0.0, -8.0, 1.0)
     hfov = lens_for(MAN, LENS, offset, 0.6)
@@ -119,11 +135,14 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
         assert seen.size == pytest.approx(subject.size, rel=0.05)
 
 
+@pytest.mark.parametrize("size", [(0.4, 1.8), (0.1, 60.0)])
 @pytest.mark.parametrize("hfov", [4.0, 20.0, 70.0, 120.0])
-def test_the_first_pose_has_all_subjects_in_its_frame_through_any_lens(hfov: float) -> None:
+def test_the_first_pose_has_all_subjects_in_its_frame_through_any_lens(
+    hfov: float, size: tuple[float, float]
+) -> None:
     lens = Lens(radians(hfov), 16 / 9, (-pi / 2, radians(30)))
     subjects = [
-        RequiredView((x, y, 3.0), CylinderShape(0.4, 1.8)) for x, y in ((0.0, 0.0), (6.0, 1.0), (-2.0, 5.0))
+        RequiredView((x, y, 3.0), CylinderShape(*size)) for x, y in ((0.0, 0.0), (6.0, 1.0), (-2.0, 5.0))
     ]
     for bearing in range(12):
         pose = first_pose(subjects, lens, ROOM, bearing * pi / 6)

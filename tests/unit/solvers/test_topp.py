@@ -83,6 +83,12 @@ def test_a_bend_takes_its_share_of_the_acceleration(fastest) -> None:
     assert found.b[500] == pytest.approx(30.0, rel=1e-4)
 
 
+def test_at_constant_speed_the_strictest_row_decides() -> None:
+    on_b = np.array([[0.5, 0.1], [0.1, 0.25], [0.0, -1.0]])
+    limits = LinearLimits(np.arange(3.0), np.ones((3, 2)), on_b, np.array([9.0, 3.0, 7.0]))
+    assert limits.ceiling.tolist() == [2.0, 3.0, 7.0]
+
+
 def test_units_are_what_full_acceleration_and_full_braking_leave_of_the_ceiling() -> None:
     # 2 m/s^2 from the start, 0.5 m/s^2 to the end, cells of different widths.
     grid = np.concatenate([np.linspace(0.0, 10.0, 41), np.linspace(10.5, 40.0, 60)])

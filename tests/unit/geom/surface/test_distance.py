@@ -48,6 +48,16 @@ def test_the_proven_distance_is_never_above_brute_force_and_within_a_millimetre(
     assert seen <= found.attained + steps
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_coarse_gap_leaves_the_bound_below_all_that_is_flown(seed: int):
+    random = np.random.default_rng(seed)
+    triangles, curve = some_triangles(random, 12), some_curve(random)
+    found = inf_distance(pieces(curve), surface_of(triangles), lambda best: 0.8 * best)
+    seen = distances(triangles, samples(curve, 201)).min()
+    assert 0.2 * found.attained - 1e-9 <= found.proven <= seen + 1e-12
+    assert found.attained >= seen - 0.1
+
+
 def test_a_circle_about_a_sphere_is_as_far_as_their_radii_say():
     found = inf_distance(pieces(orbit(12.0, 0.0)), surface_of(sphere(10.0)), fine)
     assert found.proven == pytest.approx(2.0, abs=0.002)
@@ -104,6 +114,28 @@ def test_a_bound_that_is_not_closed_is_still_proved(monkeypatch: pytest.MonkeyPa
     found = inf_distance(pieces(curve), surface_of(triangles), fine)
     assert found.proven <= distances(triangles, samples(curve, 400)).min()
     assert np.isfinite(found.proven)
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+def test_a_segment_comes_as_near_as_its_nearer_end_whichever_way_it_leads(reverse: bool):
+    speck = np.array([[[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]]])
+    ways = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / np.sqrt(3.0)
+    a, b = 0.4 * ways, 3.4 * ways
+    ends = (b, a) if reverse else (a, b)
+    assert comes_within(surface_of(speck), *ends, 0.402).all()
+    assert not comes_within(surface_of(speck), *ends, 0.398).any()
+
+
+@pytest.mark.parametrize("corner", range(3))
+def test_a_long_triangle_is_halved_whichever_of_its_sides_is_long(corner: int):
+    flat = grid(np.zeros((20, 20)), 1.0).triangles
+    needle = np.roll(np.array([[0.0, 0.0, 5.0], [10.0, 0.1, 5.0], [20.0, 0.0, 5.0]]), corner, axis=0)
+    surface = surface_of(np.concatenate([flat, needle[None]]))
+    sides = surface.triangles[:, [1, 2, 0]] - surface.triangles
+    assert np.linalg.norm(sides, axis=2).max() <= 8.0 * np.sqrt(2.0) + 1e-9
+    halves = surface.triangles[surface.source == len(flat)]
+    areas = np.linalg.norm(np.cross(halves[:, 1] - halves[:, 0], halves[:, 2] - halves[:, 0]), axis=1) / 2
+    assert areas.sum() == pytest.approx(0.5 * 0.1 * 20.0)
 
 
 def test_nothing_is_infinitely_far():

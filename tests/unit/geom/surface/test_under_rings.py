@@ -9,14 +9,23 @@ from shotc.geom.surface.ground import ground_of, height_at
 from shotc.geom.surface.under_rings import in_ring, lowest_under
 from tests.support.surfaces import grid
 
-pytestmark = pytest.mark.slow
-
 
 def star(random: np.random.Generator, centre: np.ndarray, size: float) -> np.ndarray:
     """A polygon that does not cross itself, counter-clockwise."""
     turn = np.sort(random.uniform(0, 2 * np.pi, random.integers(5, 12)))
     reach = size * random.uniform(0.3, 1.0, len(turn))
     return centre + np.column_stack([reach * np.cos(turn), reach * np.sin(turn)])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_in_a_ring_is_what_the_ring_winds_around(seed):
+    random = np.random.default_rng(seed)
+    ring, points = star(random, np.array([3.0, -2.0]), 6.0), random.uniform(-8.0, 8.0, (200, 2))
+    x, y = (ring[None] - points[:, None]).transpose(2, 0, 1)
+    turns = np.angle((np.roll(x, -1, axis=1) + 1j * np.roll(y, -1, axis=1)) / (x + 1j * y))
+    wound = np.abs(turns.sum(axis=1)) > np.pi
+    assert 0 < wound.sum() < len(points)
+    assert (in_ring(ring, points) == wound).all()
 
 
 @pytest.mark.long

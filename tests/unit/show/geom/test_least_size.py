@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shotc.geom.bernstein import Array
 from shotc.show.geom.arcs import sampled
 from shotc.show.geom.lattice import lattice
-from shotc.show.geom.least_size import DIRECTIONS, least_size
+from shotc.show.geom.least_size import DIRECTIONS, _bounds, least_size
 from shotc.show.solvers.match import matched
 
 
@@ -83,6 +83,26 @@ def test_the_way_is_large_enough_everywhere_and_turns_one_way(drawn: object) -> 
     step = np.diff(way, axis=0)
     turn = step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0]
     assert turn.min() >= -1e-9
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_tangents_bound_how_near_a_pair_is_between_two_directions(seed: int) -> None:
+    r0, r1 = np.random.default_rng(seed).uniform(-2.0, 2.0, (2, 40, 3))
+    u = np.linspace(0.0, 1.0, 9 * 100 + 1)
+    way = (1.0 - u)[:, None, None] * r0 + u[:, None, None] * r1
+    near = np.maximum(np.hypot(way[..., 0], way[..., 1]), np.abs(way[..., 2]))
+    least = np.array([near[100 * k : 100 * k + 101].min(axis=0) for k in range(9)]).T
+    assert (_bounds(r0, r1, u[::100]) <= least + 1e-12).all()
+
+
+def test_tangents_are_exact_for_who_is_above_all_the_way() -> None:
+    r0, r1 = np.zeros((3, 3)), np.zeros((3, 3))
+    r0[:, 2], r1[:, 2] = [1.0, 1.0, 2.0], [-3.0, 2.0, 0.4]
+    # They are level with each other at a quarter of the way; they part; they come nearer.
+    bounds = _bounds(r0, r1, np.array([0.0, 0.2, 0.6, 1.0]))
+    assert bounds == pytest.approx(
+        np.array([[0.2, 0.0, 1.4], [1.0, 1.2, 1.6], [1.68, 1.04, 0.4]]), abs=1e-12
+    )
 
 
 def test_who_stands_side_by_side_before_and_above_each_other_after_keeps_one_of_both() -> None:
