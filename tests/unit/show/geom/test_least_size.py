@@ -100,9 +100,7 @@ def test_tangents_are_exact_for_who_is_above_all_the_way() -> None:
     r0[:, 2], r1[:, 2] = [1.0, 1.0, 2.0], [-3.0, 2.0, 0.4]
     # They are level with each other at a quarter of the way; they part; they come nearer.
     bounds = _bounds(r0, r1, np.array([0.0, 0.2, 0.6, 1.0]))
-    assert bounds == pytest.approx(
-        np.array([[0.2, 0.0, 1.4], [1.0, 1.2, 1.6], [1.68, 1.04, 0.4]]), abs=1e-12
-    )
+    assert bounds == pytest.approx(np.array([[0.2, 0.0, 1.4], [1.0, 1.2, 1.6], [1.68, 1.04, 0.4]]), abs=1e-12)
 
 
 def test_who_stands_side_by_side_before_and_above_each_other_after_keeps_one_of_both() -> None:
