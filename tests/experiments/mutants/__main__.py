@@ -13,7 +13,6 @@ from __future__ import annotations
 import argparse
 import random
 import sys
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -21,7 +20,7 @@ from queue import SimpleQueue
 
 from tests.experiments.mutants.changes import Mutant, mutants
 from tests.experiments.mutants.coverage_map import CoverageMap, recorded
-from tests.experiments.mutants.equivalents import EQUIVALENTS
+from tests.experiments.mutants.equivalents import is_equivalent
 from tests.experiments.mutants.trial import Bench, Trial
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -71,17 +70,12 @@ def draw(found: Sequence[Mutant], number: int, seed: int) -> list[Mutant]:
 
     Each has a random number of its own, so that a change of the source changes the draw where it is alone.
     """
-    same: Counter[tuple[str, str, str]] = Counter()
-    ranks = []
-    for mutant in found:
-        ranks.append(random.Random(f"{seed} {same[mutant.key]} {mutant.key}").random())
-        same[mutant.key] += 1
+    ranks = [random.Random(f"{seed} {mutant.nth} {mutant.key}").random() for mutant in found]
     return [found[k] for k in sorted(range(len(found)), key=ranks.__getitem__)[:number]]
 
 
 def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Namespace) -> Iterator[Trial]:
     """Try mutants side by side, each worker in a copy of its own, and say how each ends."""
-    equivalent = {e.key for e in EQUIVALENTS}
     tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
     copies = [OUT / f"copy-{k}" for k in range(options.jobs)]
     remembered = OUT / "memory.jsonl"
@@ -93,7 +87,7 @@ def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Names
         free.put(bench)
 
     def one(mutant: Mutant) -> Trial:
-        if mutant.key in equivalent:
+        if is_equivalent(mutant):
             return Trial(mutant, "equivalent", 0)
         bench = free.get()
         try:

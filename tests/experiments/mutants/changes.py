@@ -12,8 +12,9 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 OPPOSITE = {
     ast.Lt: ">", ast.Gt: "<", ast.LtE: ">=", ast.GtE: "<=", ast.Eq: "!=", ast.NotEq: "==",
@@ -44,7 +45,7 @@ class Mutant:
     """One edit of a file.
 
     start, end : offsets in its text, characters; first, last : lines of the statement (of its head where it
-    holds others), from 1; line, column : of the edit, from 1
+    holds others), from 1; line, column : of the edit, from 1; nth : of those of its file with its key, from 0
     """
 
     path: str
@@ -57,6 +58,7 @@ class Mutant:
     first: int
     last: int
     source: str
+    nth: int = 0
 
     @property
     def change(self) -> str:
@@ -77,7 +79,12 @@ def mutants(path: str, text: str) -> list[Mutant]:
     """Return all mutants of a module, in the order of the text."""
     found = _Finder(path, text)
     found.visit(ast.parse(text))
-    return sorted(found.mutants, key=lambda m: (m.start, m.end, m.new))
+    same: Counter[tuple[str, str, str]] = Counter()
+    numbered = []
+    for mutant in sorted(found.mutants, key=lambda m: (m.start, m.end, m.new)):
+        numbered.append(replace(mutant, nth=same[mutant.key]))
+        same[mutant.key] += 1
+    return numbered
 
 
 class _Finder(ast.NodeVisitor):

@@ -7,19 +7,31 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from tests.experiments.mutants.changes import Mutant
+
 
 class Equivalent(NamedTuple):
-    """A mutant that is no fault; source : the text of its line, change : as the report writes it."""
+    """A mutant that is no fault.
+
+    source : the text of its line; change : as the report writes it; nth : of the same ones in its file, from 0;
+        None for all of them
+    """
 
     path: str
     source: str
     change: str
     reason: str
+    nth: int | None = None
 
     @property
     def key(self) -> tuple[str, str, str]:
         """What the mutant is known by."""
         return self.path, self.source, self.change
+
+
+def is_equivalent(mutant: Mutant) -> bool:
+    """Whether a mutant is one of those that are no fault."""
+    return any(e.key == mutant.key and e.nth in {None, mutant.nth} for e in EQUIVALENTS)
 
 
 EQUIVALENTS: tuple[Equivalent, ...] = (
@@ -190,5 +202,79 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "best, at, closed = -np.inf, 0.0, -np.inf",
         "0.0  ->  1.0",
         "the place of a supremum over no pieces, which is -inf; with any piece it is overwritten",
+    ),
+    Equivalent(
+        "shotc/geom/colouring.py",
+        "side = (least - ROUNDING_M) / sqrt(2.0) * (1.0 - 1e-9)",
+        "1e-9  ->  1.0000000000000002e-06",
+        "places in a smaller square are a clique, too: the bound holds, and layouts have no such fine grain",
+    ),
+    Equivalent(
+        "shotc/geom/surface/height.py",
+        "turn = np.where(whole, turn, 1.0)",
+        "1.0  ->  2.0",
+        "it keeps a division from zero, and the last line does not use what is not whole",
+    ),
+    Equivalent(
+        "shotc/geom/surface/near.py",
+        "ROUNDING = 1e-9",
+        "1e-9  ->  1.0000000000000002e-06",
+        "a wider tolerance leaves more boxes to look at; the distances of their triangles decide",
+    ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        "ends = RAY_SHARE * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])",
+        "1  ->  2",
+        "cells are n x n; and numpy takes any negative size for the one that is left",
+    ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        "return np.asarray(hidden(surface, billboards(eyes, points, 0.0, 0.0), 1)[:, 0, 0])",
+        "0.0  ->  1.0",
+        "the middle of a rectangle of any size is the point",
+    ),
+    Equivalent(
+        "shotc/geom/surface/tree.py",
+        "limit = max(LONG_EDGE_RATIO * float(np.median(edges)), LONG_EDGE_RATIO * 1e-3 * float(edges.max()), 1e-9)",
+        "1e-9  ->  1.0000000000000002e-06",
+        "it keeps a division from zero where all triangles are points",
+    ),
+    Equivalent(
+        "shotc/geom/terrain/systems.py",
+        "(1 / 2, -2 / 3, 37 / 96, -1 / 360), (1 / 48, 1 / 15, -437 / 1440), (17 / 480, -37 / 840), (4397 / 161280,)",
+        "161280  ->  161281",
+        "n^4 / 161280^2 of the earth's radius is less than a picometre",
+    ),
+    Equivalent(
+        "shotc/solvers/topp_lp.py",
+        "rows.positive(0.0 * one, [(inside, one)])",
+        "rows.positive(0.0 * one, [(inside, one)])  ->  pass",
+        "b is maximised and standing still is allowed, so that 0 is no bound that a profile comes to",
+    ),
+    Equivalent(
+        "shotc/geom/integral.py",
+        "break",
+        "break  ->  continue",
+        "without pieces the rounds that are left add nothing",
+    ),
+    Equivalent(
+        "shotc/show/geom/layers.py",
+        "each = [rows_of(low - step, high + step, step, layers.square) + step * np.array(s) for s in layers.shifts]",
+        "+  ->  -",
+        "the same layers, mirrored at a place; what is laid begins a step beyond the shape",
+        1,
+    ),
+    Equivalent(
+        "shotc/show/geom/layers.py",
+        "shifts = ((0.0, 0.0), *(_SQUARE if square else _HEXAGON)[count])",
+        "0.0  ->  1.0",
+        "a shift by a whole step along the rows is the same lattice",
+        0,
+    ),
+    Equivalent(
+        "shotc/passes/verify/promises.py",
+        "if (finish - start) * (last - first) <= 0:",
+        "*  ->  /",
+        "a quotient has the sign of the product, and the language refuses equal ends",
     ),
 )

@@ -110,8 +110,9 @@ def test_a_change_of_the_source_changes_the_draw_where_it_is_alone() -> None:
 
 @pytest.mark.slow
 def test_an_equivalent_mutant_is_one_that_there_is() -> None:
-    keys = {mutant.key for mutant in every(sorted({e.path for e in EQUIVALENTS}))}
-    assert [e for e in EQUIVALENTS if e.key not in keys] == []
+    there = every(sorted({e.path for e in EQUIVALENTS}))
+    keys = {(mutant.key, nth) for mutant in there for nth in (None, mutant.nth)}
+    assert [e for e in EQUIVALENTS if (e.key, e.nth) not in keys] == []
     assert all(Path(ROOT / e.path).is_file() and e.reason for e in EQUIVALENTS)
 
 

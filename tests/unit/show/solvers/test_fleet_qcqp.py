@@ -152,6 +152,50 @@ def test_acceleration_counts_whole_or_axis_by_axis(
     assert found == pytest.approx([excess], abs=1e-9)
 
 
+@pytest.mark.parametrize("per_axis", [False, True])
+def test_rows_are_projected_to_the_nearest_ones_within_the_bounds(per_axis: bool) -> None:
+    """For all rows w within the bounds the angle at P(v) between v and w is at least a right one."""
+    breaks, wanted = walks(6, 8, 2.0, 1.0)
+    programme = fleet_qcqp.FleetProgramme(breaks, DerivativeBounds(LIMITS, per_axis))
+    rng = np.random.default_rng(3)
+    for part in programme.rows:
+        far = rng.normal(size=(len(part.scale), 6, 3)) * 3.0 * part.scale[:, None, None] * 3.0**part.order
+        near, others = far.copy(), 0.1 * far[::-1].copy()
+        for values in (near, others):
+            fleet_qcqp._project(values, part, programme.bounds)
+        unscaled = np.moveaxis(near / part.scale[:, None, None], 0, 1)
+        excess = fleet_qcqp._excess(unscaled, part.order, programme.bounds)
+        assert excess.max() == pytest.approx(0.0, abs=1e-12)
+        assert (excess.max(axis=0) >= -1e-12).mean() > 0.5
+        assert (((far - near) * (others - near)).sum(axis=2) <= 1e-12).all()
+
+
+@pytest.mark.parametrize("per_axis", [False, True])
+def test_the_iteration_ends_where_the_interior_point_method_does(per_axis: bool) -> None:
+    breaks, wanted = walks(3, 10, 2.5, 1.2)
+    programme = fleet_qcqp.FleetProgramme(breaks, DerivativeBounds(LIMITS, per_axis))
+    found = programme.solve(wanted)
+    assert found.done.all()
+    for points, reference in zip(found.points, wanted, strict=True):
+        exact = programme.solve_exactly(reference)
+        assert exact is not None
+        assert np.abs(points - exact).max() < 2e-3 * np.abs(exact - reference).max() + 1e-5
+
+
+@pytest.mark.parametrize(("size", "period"), [(2.5, 1.2), (0.1, 0.2), (60.0, 20.0)])
+def test_who_is_done_exceeds_no_bound_by_more_than_the_share_that_is_left_for_it(
+    size: float, period: float
+) -> None:
+    """Pieces of any length, though their third differences are larger by the cube of it."""
+    breaks, wanted = walks(3, 10, size, period)
+    bounds = DerivativeBounds(LIMITS)
+    found = fleet_qcqp.FleetProgramme(breaks, bounds).solve(wanted)
+    assert found.done.any()
+    excess = overdraft(breaks, found.points, bounds)[found.done]
+    assert (excess <= fleet_qcqp.EXACT_SHARE).all()
+    assert (excess > 0.0).any()
+
+
 def test_drones_within_their_bounds_are_returned_bit_for_bit() -> None:
     breaks, slow = walks(5, 10, 0.01, 2.0)
     done = bounded(breaks, slow, DerivativeBounds(LIMITS))
