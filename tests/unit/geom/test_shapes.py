@@ -99,6 +99,14 @@ def area(points: np.ndarray) -> float:
     return float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
 
 
+@pytest.mark.parametrize("yaw", [0.0, 0.7, 2.0, -1.3])
+def test_the_corners_of_a_box_are_those_of_its_surface(yaw: float) -> None:
+    shape = BoxShape(6.0, 2.0, 3.0, (cos(yaw), sin(yaw)))
+    corners = np.array(sorted(np.round(shape.corners((1.0, -2.0, 5.0)), 9).tolist()))
+    expected = np.array(sorted(np.round(surface(shape) + np.array([1.0, -2.0, 5.0]), 9).tolist()))
+    assert corners == pytest.approx(expected)
+
+
 def test_from_inside_a_box_there_is_no_contour() -> None:
     inside = shape_contour(np.array([0.3, 0.2, -0.1]), BoxShape(4.0, 2.0, 1.0))
     assert np.isnan(inside).all()

@@ -141,7 +141,8 @@ def test_a_long_triangle_is_halved_whichever_of_its_sides_is_long(corner: int):
 def test_nothing_is_infinitely_far():
     none = surface_of(np.zeros((0, 3, 3)))
     curve = line((0, 0, 0), (1, 0, 0))
-    assert inf_distance(pieces(curve), none, fine).proven == np.inf
+    bound = inf_distance(pieces(curve), none, fine)
+    assert (bound.proven, bound.piece, bound.triangle) == (np.inf, -1, -1)
     bag = pieces(curve)
     nowhere = Pieces(bag.low[:0], bag.high[:0], bag.ctrl[:0])
     assert inf_distance(nowhere, surface_of(sphere(1.0, 1)), fine).proven == np.inf

@@ -155,7 +155,7 @@ def test_acceleration_counts_whole_or_axis_by_axis(
 @pytest.mark.parametrize("per_axis", [False, True])
 def test_rows_are_projected_to_the_nearest_ones_within_the_bounds(per_axis: bool) -> None:
     """For all rows w within the bounds the angle at P(v) between v and w is at least a right one."""
-    breaks, wanted = walks(6, 8, 2.0, 1.0)
+    breaks, _ = walks(6, 8, 2.0, 1.0)
     programme = fleet_qcqp.FleetProgramme(breaks, DerivativeBounds(LIMITS, per_axis))
     rng = np.random.default_rng(3)
     for part in programme.rows:

@@ -1,0 +1,84 @@
+"""The height of a fleet along its path: where it is required, how far it is extended, what is enough."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.show.solvers.lifted_move import (
+    BEYOND_M,
+    EXTENSIONS,
+    STEPS,
+    WIDTHS,
+    Rise,
+    _concave,
+    _enough,
+    _farthest,
+    _lines,
+    sampled,
+)
+
+FAR_M, WALL_M = 100.0, 20.0
+SHARE = np.linspace(0.0, 1.0, 1001)
+WALL = Rise(SHARE, np.where((SHARE > 0.4999) & (SHARE < 0.6001), WALL_M, 0.0))
+"""A wall from the middle of a path of 100 m to 60 m."""
+
+
+def height(line: np.ndarray, share: float) -> float:
+    return float(np.interp(share, *line.T))
+
+
+def test_the_drone_with_the_longest_way_tells_how_far_it_is() -> None:
+    starts = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 5.0, 0.0]])
+    assert _farthest((starts, starts + np.array([[1.0, 0, 0], [3.0, 4.0, 12.0], [0, 2.0, 0]]))) == 13.0
+
+
+def test_heights_rise_to_a_wall_a_share_of_the_flown_length_before_it_and_fall_as_late() -> None:
+    lines = [line for k, line in enumerate(_lines(FAR_M, WALL)) if k % len(WIDTHS) == 0]
+    assert len(lines) == len(EXTENSIONS)
+    for extension, line in zip(EXTENSIONS, lines, strict=True):
+        before = extension * (FAR_M + 2.0 * WALL_M) / FAR_M
+        for inside in (0.5 - before + 0.002, 0.6 + before - 0.002, 0.55):
+            assert height(line, inside) == pytest.approx(WALL_M, abs=1e-6)
+        # It is straight up to there and down from there, beside the cut of a corner between two steps.
+        assert height(line, 0.25) == pytest.approx(WALL_M * 0.25 / (0.5 - before), rel=0.01)
+        assert height(line, 0.9) == pytest.approx(WALL_M * 0.1 / (0.4 - before), rel=0.01)
+
+
+def test_lines_begin_and_end_on_the_path_and_have_steps_of_one_flown_length() -> None:
+    lines = list(_lines(FAR_M, WALL))
+    for k, line in enumerate(lines):
+        assert line.shape == (STEPS + 1, 2)
+        assert (line[0].tolist(), line[-1].tolist()) == ([0.0, 0.0], [1.0, 0.0])
+        if k % len(WIDTHS) == 0:
+            flown = np.hypot(np.diff(line[:, 0]) * FAR_M, np.diff(line[:, 1]))
+            assert np.median(flown) == pytest.approx(flown.mean(), rel=0.01)
+            assert flown.max() <= np.median(flown) * (1.0 + 1e-9)
+        else:
+            half = round(WIDTHS[k % len(WIDTHS)] * STEPS)
+            sharp = lines[k - k % len(WIDTHS)]
+            mean = sharp[STEPS // 2 - half : STEPS // 2 + half + 1].mean(axis=0)
+            assert line[STEPS // 2] == pytest.approx(mean)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_concave_hull_is_above_all_values_and_touches_them_where_it_bends(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    at, values = np.cumsum(rng.uniform(0.1, 1.0, 30)), rng.uniform(0.0, 5.0, 30)
+    values[[0, -1]] = 0.0
+    hull = _concave(at, values)
+    slopes = np.diff(hull) / np.diff(at)
+    assert (hull >= values - 1e-12).all()
+    assert (np.diff(slopes) <= 1e-9).all()
+    bends = np.flatnonzero(np.diff(slopes) < -1e-9) + 1
+    assert len(bends)
+    assert hull[bends] == pytest.approx(values[bends])
+
+
+def test_a_height_is_enough_if_it_is_beyond_all_that_is_required_and_no_more() -> None:
+    points = np.array([0.0, 0.0, 0.0, 1.0, 3.0, 2.0, 0.0, 0.0, 0.0])
+    need = 1.5 * sampled(points) ** 2
+    factor = _enough(points, need)
+    assert (factor * sampled(points) - need)[need > 1e-3].min() == pytest.approx(BEYOND_M)
+    assert _enough(points, np.zeros(len(need))) == 1.0
+    assert _enough(0.0 * points, need) == np.inf
