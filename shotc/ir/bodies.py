@@ -11,6 +11,13 @@ from shotc.geom.track_array import headings, places
 from shotc.ir.target import Target
 
 
+def centres(target: Target, t: Array) -> Array:
+    """Return the centres of a target at mission times (M,), metres, shape (M, 3)."""
+    if target.track is None:
+        return standing_at(np.array(target.centre), t)
+    return places(target.track, t)
+
+
 def moved(target: Target, t: Array) -> Array:
     """Return the displacement of a target since mission time 0, metres, at times (M,), shape (M, 3)."""
     if target.track is None:

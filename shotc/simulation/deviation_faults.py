@@ -125,10 +125,26 @@ def _unplaced(done: Rehearsed) -> Iterator[Diagnostic]:
             (done.mission.origins.value(done.mission.drone(first.drone).path),),
             (
                 f"worst in run {run}, at {worst.time:.1f} s",
-                f"after {BLIND_S:g} s without positions it brakes and holds; then it returns to its plan",
+                f"after {BLIND_S:g} s without positions it brakes and holds; then {_way_back(done, i)}",
             ),
             "read what your autopilot does without positions: some land where they are",
         )
+
+
+def _way_back(done: Rehearsed, drone: int) -> str:
+    """Return how a drone comes back to its plan after an outage, in words."""
+    straight = [(way, run.number) for run in done.runs if (way := run.courses[drone].straight) is not None]
+    if not straight:
+        return "it plans its way back to its plan, clear of what the plan keeps clear of"
+    lack, run = max(straight)
+    if lack.clear:
+        return "it flies straight back to its plan, and the way keeps its clearances"
+    off = sum(not way.clear for way, _ in straight)
+    return (
+        f"it flies straight back to its plan: in {off} of {len(done.runs)} runs the way lacks up to "
+        f"{at_least(lack.metres)} m of its clearance from {lack.to}, most in run {run} at {lack.time:.1f} s; "
+        "a drone that replans (`--loop replan`) flies round it"
+    )
 
 
 def _unplanned(done: Rehearsed) -> Iterator[Diagnostic]:

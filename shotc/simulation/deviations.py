@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.ir.bodies import centres
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.flight import DroneRuns
-from shotc.simulation.guidance import MOST_BACK_S
 from shotc.simulation.sensors import within
 from shotc.simulation.situations import Anew, Chased, replanned
 from shotc.simulation.world import World, at_times
@@ -27,6 +27,9 @@ LEFT_RATIO = 0.5
 """Additional distance over the planned one, above which a drone has fallen behind: the subject has two thirds
 of its planned size on screen.
 """
+
+BACK_S = 20.0
+"""Seconds after a shot or an outage in which a drone's stray is no error of its receiver."""
 
 RECEIVER_SHARE = 0.5
 """Share of a stray, above which the receiver's error is its main cause."""
@@ -140,7 +143,7 @@ def _lags(world: World, track: DroneTrajectory, flown: DroneRuns, of: tuple[Phas
     phase, name = of
     times = np.arange(phase.start, phase.end, SAMPLE_S)
     really = world.places[name]
-    course = np.array([world.mission.target(name).at(t) for t in times.tolist()])
+    course = centres(world.mission.target(name), times)
     planned = np.linalg.norm(track.curve(times)[:, :3] - course, axis=1)
     here = at_times(really, world.times, times)
     there = at_times(flown.position, flown.times, times) - here
@@ -169,8 +172,8 @@ def _on_plan(world: World, track: DroneTrajectory, times: Array) -> Array:
     """Return at which of times (M,) a drone follows its plan, (M,)."""
     inside = np.ones(len(times), dtype=bool)
     for start, end in world.conditions.lost(track.drone):
-        inside &= (times < start) | (times > end + MOST_BACK_S)
+        inside &= (times < start) | (times > end + BACK_S)
     if world.conditions.loop == "replan":
         for shot in replanned(world.mission, track):
-            inside &= (times < shot.phase.start) | (times > shot.phase.end + MOST_BACK_S)
+            inside &= (times < shot.phase.start) | (times > shot.phase.end + BACK_S)
     return inside

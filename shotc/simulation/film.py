@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 
 import numpy as np
 
@@ -61,6 +62,18 @@ class PlanSamples:
     def places(self, times: Array) -> Array:
         """Return where the drone is planned to be at times (M,), (M, 3), metres."""
         return np.asarray(self.position[[self.step(time) for time in times.tolist()]])
+
+    @property
+    def lands(self) -> float:
+        """The time at which the drone begins to land over its pad, or the end of its flight, seconds."""
+        landings = [phase.start for phase in self.track.phases if phase.name == "land"]
+        return min(landings, default=float(self.times[-1]))
+
+    @property
+    def fastest(self) -> float:
+        """The largest speed that the drone's limits allow, climb and descent included, m/s."""
+        limits = self.drone.limits
+        return hypot(limits.fastest, max(limits.climb, limits.descent))
 
     def setpoint(self, k: int) -> VehicleSetpoint:
         """Return the setpoint of the plan at a step."""

@@ -5,26 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
-from math import hypot
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
-from shotc.ir.limits import Limits
 from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import Replanner
 from shotc.simulation.aim import Shown, aim_rates, aimed
-from shotc.simulation.blind import BlindHold
+from shotc.simulation.blind import BlindHold, held_intervals
 from shotc.simulation.film import PlanSamples, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
-from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
+from shotc.simulation.guidance import PERIOD_S, Guidance
 from shotc.simulation.replanner_process import replanner
+from shotc.simulation.replans import Replans
 from shotc.simulation.seen import TrackedTarget, watched
 from shotc.simulation.sent import Sent
 from shotc.simulation.situations import replanned
 from shotc.simulation.vehicle import STEP_S, Lagging, Plant, Vehicle, VehicleState, steered
+from shotc.simulation.way_back import ReturnLack
 from shotc.simulation.world import World
 
 HEADROOM_RATIO = 1.3
@@ -52,6 +52,7 @@ class DroneRuns:
     yaw, pitch, roll : of the camera, (F, R), rad
     error : of the drone's own position, (F, R, 3), metres
     replans : of every run; () without replanning
+    straight : what its straight ways back after outages lack, of every run; () without them
     """
 
     drone: str
@@ -64,6 +65,7 @@ class DroneRuns:
     error: Array
     estimated: tuple[Estimated, ...]
     replans: tuple[Replans, ...] = ()
+    straight: tuple[ReturnLack, ...] = ()
 
 
 def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns, ...]:
@@ -111,12 +113,14 @@ def fly(
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
     chances = conditions.chances(runs, f"gps of {name}")
     error = conditions.gps.own_error(film.times[::STEPS_PER_RECORD], chances, conditions.lost(name))
-    hold = BlindHold.of(film, conditions.lost(name))
+    held = held_intervals(film, conditions.lost(name))
     targets = _watched(world, film)
-    shots = () if by is None else replanned(world.mission, film.track)
-    guidance = Guidance(world, film, shots, by, targets, sent, own)
+    guide: Guidance | BlindHold = BlindHold(world, film, held)
+    if by is not None:
+        shots = replanned(world.mission, film.track)
+        guide = Guidance(world, film, shots, by, held, targets, sent, own)
     vehicle, gimbal = (
-        Vehicle(speed=HEADROOM_RATIO * fastest(film.drone.limits)),
+        Vehicle(speed=HEADROOM_RATIO * film.fastest),
         GimbalModel(film.drone.gimbal.rate),
     )
     state = VehicleState.at_rest(np.tile(film.position[0], (n, 1)))
@@ -134,10 +138,9 @@ def fly(
                 target.learn(float(film.times[k]))
             attitudes, rate = _demanded(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, attitudes, rate, STEPS_PER_RECORD * STEP_S)
-        setpoint = guidance.setpoint(k, (state.position + off, state.velocity))
-        setpoint = hold.setpoint(float(film.times[k]), setpoint, n)
+        setpoint = guide.setpoint(k, (state.position + off, state.velocity))
         state = plant.carried(state, *steered(vehicle, state, setpoint, off), world.steady + gusts[k])
-    return into.done(film, guidance)
+    return into.done(film, guide)
 
 
 def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
@@ -150,11 +153,6 @@ def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
     from shotc.simulation.rotorpy_plant import RotorPyPlant
 
     return RotorPyPlant(vehicle, first)
-
-
-def fastest(limits: Limits) -> float:
-    """Return the largest speed that limits allow, climb and descent included, m/s."""
-    return hypot(limits.fastest, max(limits.climb, limits.descent))
 
 
 def _watched(world: World, film: PlanSamples) -> tuple[TrackedTarget, ...]:
@@ -248,7 +246,7 @@ class _Record:
             now = target.tracker.now(i * STEPS_PER_RECORD * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
-    def done(self, film: PlanSamples, guidance: Guidance) -> DroneRuns:
+    def done(self, film: PlanSamples, guide: Guidance | BlindHold) -> DroneRuns:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
         times = film.times[::STEPS_PER_RECORD]
         return DroneRuns(
@@ -261,5 +259,6 @@ class _Record:
             roll,
             self.error,
             self.estimated,
-            tuple(guidance.counts),
+            tuple(guide.counts) if isinstance(guide, Guidance) else (),
+            tuple(guide.lacks) if isinstance(guide, BlindHold) else (),
         )

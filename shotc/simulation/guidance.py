@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import exp, inf
+from math import exp
 from typing import Any
 
 import numpy as np
@@ -15,17 +15,19 @@ from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT, Phase
-from shotc.planning.clearances import clearances_of, from_parked
-from shotc.plugin_api.replanner import Cone, Keeping, Plan, Replanner, Traffic
+from shotc.plugin_api.replanner import Cone, Plan, Replanner, Traffic
 from shotc.simulation.film import PlanSamples
 from shotc.simulation.replanner_answers import fault_of
 from shotc.simulation.replanner_process import ReplannerFailed, ReplannerHangs
+from shotc.simulation.replans import Replans
 from shotc.simulation.seen import TrackedTarget
-from shotc.simulation.sent import Fading, Sent, SentPlans, seconds_back
+from shotc.simulation.sensors import Interval, within
+from shotc.simulation.sent import Fading, Sent, SentPlans
 from shotc.simulation.situations import STAGE_S, Anew, Chased, ComposedShot, Known, Rejoined, ReplanInstant
 from shotc.simulation.target_reach import TargetReach, reaches, with_targets
 from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
-from shotc.simulation.walls import Standing, followed
+from shotc.simulation.walls import Standing, followed, keeping_of
+from shotc.simulation.way_back import WayBack, durations_back, return_lack
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
@@ -45,44 +47,19 @@ height known to 2 cm would let the camera climb and sink twice a second with 0.2
 
 _SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
 
-MOST_BACK_S = 20.0
-"""Seconds after a shot for which a drone replans around an obstacle on the direct path to its plan."""
-
-NEARER_M = 0.01
-"""Metres by which the return may lack more clearance than necessary, or than the plan does."""
-
-
-@dataclass(slots=True)
-class Replans:
-    """The number of replans of a drone in a run by result (``plugin_api.replanner``).
-
-    failed : the replanner gave no plan that can be flown, or it hangs and is not asked again in this shot
-    lost : the replanner was not asked, because the position of a target is unknown
-    reason : of the last failure
-    blind : the reason why the last target was lost
-    """
-
-    planned: int = 0
-    stalled: int = 0
-    opened: int = 0
-    failed: int = 0
-    lost: int = 0
-    lack: float = 0.0
-    reason: str = ""
-    blind: str = ""
-
-    @property
-    def requested(self) -> int:
-        """The number of replans that the replanner was asked for, or would have been."""
-        return self.planned + self.stalled + self.opened + self.failed
+MOST_UNSURE_S = 20.0
+"""Seconds on the way back to the plan, after which a target counts where it is expected, and no longer where
+it may be: the reach of a lost target grows over every way back.
+"""
 
 
 @dataclass(slots=True)
 class Guidance:
-    """Guides one drone in R runs.
+    """Guides one drone in R runs, in which it plans shots and its way back from them anew.
 
-    shots : shots with replanning; () flies the plan
-    by : the replanner; None without replanning
+    shots : shots with replanning
+    by : the replanner
+    blind : the intervals in which it brakes and holds for lack of positions of its own, seconds
     targets : the trackers of moving targets
     sent : plans of drones of higher priority
     own : takes the plans that this drone sends
@@ -91,7 +68,8 @@ class Guidance:
     world: World
     film: PlanSamples
     shots: tuple[Anew, ...]
-    by: Replanner | None
+    by: Replanner
+    blind: tuple[Interval, ...]
     targets: tuple[TrackedTarget, ...]
     sent: tuple[Sent, ...] = ()
     own: Sent | None = None
@@ -103,8 +81,9 @@ class Guidance:
     _standing: Standing | None = None
     _away: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
     _hangs: dict[int, str] = field(default_factory=dict)
-    _course: Array | None = None
-    _rise: Array | None = None
+    _course: Array = field(default_factory=lambda: np.zeros(0))
+    _rise: Array = field(default_factory=lambda: np.zeros(0))
+    _holds: bool = False
 
     def setpoint(self, k: int, drone: tuple[Array, Array]) -> VehicleSetpoint:
         """Return the setpoint of the drone at a step.
@@ -112,16 +91,44 @@ class Guidance:
         drone : its estimated position and velocity, (R, 3) each
         """
         time = float(self.film.times[k])
+        if within(time, self.blind):
+            return self._stopped(time)
+        returns, self._holds = self._holds, False
         shot = next((s for s in self.shots if s.phase.start <= time < s.phase.end), None)
         if shot is not None and shot is not self._active:
             self._begin(shot, time)
-        elif shot is None and self._active is not None and not isinstance(self._active, Rejoined):
+        elif shot is None and (returns or isinstance(self._active, Chased | ComposedShot)):
             self._leave(time)
-        if self._active is None or self._held is None:
-            return self.film.setpoint(k) if self._back is None else self._back.setpoint(time)
-        if self._replan_due(time):
+        if self._active is not None and self._replan_due(time):
             self._replan(self._active, time, drone)
+        return self._now(time)
+
+    def _now(self, time: float) -> VehicleSetpoint:
+        """Return the setpoints of all runs at a time, without planning anew."""
+        if self._active is None or self._held is None:
+            return self._planned(time)
         return self._mixed(time)
+
+    def _planned(self, time: float) -> VehicleSetpoint:
+        """Return the setpoints of the plan, with what is left of the ways back to it."""
+        return self.film.setpoint(self.film.step(time)) if self._back is None else self._back.setpoint(time)
+
+    def _stopped(self, time: float) -> VehicleSetpoint:
+        """Return the setpoints of drones that brake and hold."""
+        if not self._holds:
+            now, h = self._now(time), STAGE_S
+            parts = (np.broadcast_to(part, (self._runs, 3)) for part in (now.position, now.velocity))
+            # A plan of one stage: past its end drones brake and hold.
+            stops = tuple(
+                Plan(np.array([time, time + h]), np.array([p, p + h * v]), np.array([v, v]), np.zeros((1, 3)))
+                for p, v in zip(*parts, strict=True)
+            )
+            self._prepare()
+            self._held = SentPlans(stops, self.film.drone.limits.usable_acceleration)
+            self._away, self._holds = np.ones(self._runs, dtype=bool), True
+            self._send(time)
+        assert self._held is not None
+        return self._held.setpoint(time)
 
     def _mixed(self, time: float) -> VehicleSetpoint:
         """Return the setpoints of all runs: those that have rejoined their plan follow it, the others their
@@ -144,80 +151,98 @@ class Guidance:
         steps = self.film.step(time) - self.film.step(self._active.phase.start)
         return steps % round(PERIOD_S / STEP_S) == 0
 
+    @property
+    def _runs(self) -> int:
+        """Return the number of runs."""
+        return len(self.world.runs)
+
+    def _prepare(self) -> None:
+        """Prepare the counts and the smoothed states of all runs, once."""
+        if not self.counts:
+            self.counts = [Replans() for _ in range(self._runs)]
+            self._course, self._rise = np.zeros(self._runs), np.zeros(self._runs)
+            self._away = np.zeros(self._runs, dtype=bool)
+
     def _begin(self, shot: Anew, time: float) -> None:
+        """Start replanning of a shot: drones that are not back on their plan go on from where they are."""
+        self._prepare()
+        first = list(self._ahead(time, shot.stages))
+        for r in np.flatnonzero(self._away).tolist():
+            assert self._held is not None
+            first[r] = self._held.plans[r]
         self._take(shot)
-        first = self._planned(time, shot.stages)
-        n = len(self.world.runs)
-        self._held = SentPlans((first,) * n, self.film.drone.limits.usable_acceleration)
-        self.counts = self.counts or [Replans() for _ in range(n)]
-        self._course, self._rise = np.zeros(n), np.zeros(n)
-        self._away = np.ones(n, dtype=bool)
+        self._held = SentPlans(tuple(first), self.film.drone.limits.usable_acceleration)
+        self._course, self._rise = np.zeros(self._runs), np.zeros(self._runs)
+        self._away = np.ones(self._runs, dtype=bool)
         self._hangs.clear()
 
     def _take(self, shot: Anew | Rejoined) -> None:
         """Start replanning of a shot or of a return."""
         mission, drone = self.world.mission, self.film.drone
-        rules, terrain = mission.rules, mission.terrain
-        keeping = Keeping(
-            limits=drone.limits,
-            pitch=drone.gimbal.pitch,
-            zones=(*clearances_of(mission, drone), *from_parked(mission, drone)),
-            floor=rules.over_ground(drone.radius) if terrain is None else -inf,
-            ceiling=rules.max_height or inf if terrain is None else inf,
-            separation=rules.separation,
-            half_angle=_cone_of(mission, drone) if self.sent else None,
-        )
-        assert self.by is not None
+        keeping = keeping_of(mission, drone, _cone_of(mission, drone) if self.sent else None)
         self._planner = shot.planner(self.by, self.film, keeping)
         self._standing = Standing.of(mission, drone, keeping)
         self._active = shot
 
-    def _planned(self, time: float, count: int) -> Plan:
-        """Return the next seconds of the plan, from which the first replan continues."""
+    def _ahead(self, time: float, count: int) -> tuple[Plan, ...]:
+        """Return the next seconds of the plan in all runs, from which the first replans continue."""
         stages = time + STAGE_S * np.arange(count + 1, dtype=np.float64)
-        curve = self.film.track.curve
-        velocities = curve.derivative()(stages)[:, :3]
-        return Plan(stages, curve(stages)[:, :3], velocities, np.diff(velocities, axis=0) / STAGE_S)
+        rows = [self._planned(t) for t in stages.tolist()]
+        shape = (self._runs, 3)
+        places, velocities = (
+            np.stack([np.broadcast_to(row, shape) for row in part], axis=1)
+            for part in ([row.position for row in rows], [row.velocity for row in rows])
+        )
+        rates = np.diff(velocities, axis=1) / STAGE_S
+        return tuple(Plan(stages, *each) for each in zip(places, velocities, rates, strict=True))
 
     def _leave(self, time: float) -> None:
-        """Start the drones' return to their plan after a shot."""
-        following = [p.start for p in self.film.track.phases if p.start >= time and _exact(p)]
-        end = min(time + MOST_BACK_S, *following, float(self.film.times[-1]))
-        self._take(Rejoined(Phase("transit", None, time, end)))
-        self._back = Fading.none(self.film, len(self.world.runs))
+        """Start the drones' return to their plan."""
+        self._prepare()
+        self._take(Rejoined(Phase("transit", None, time, float(self.film.times[-1]))))
+        self._back = Fading.none(self.film, self._runs)
 
     def _come_back(self, shot: Rejoined, time: float) -> None:
-        """Let runs return directly to their plan if the path is clear or their time is over.
+        """Let runs return directly to their plan if the path is clear.
 
         Over its pad a drone may be near obstacles.
         """
         assert self._held is not None
         assert self._back is not None
+        assert self._standing is not None
         now, plan = self._held.setpoint(time), self.film.setpoint(self.film.step(time))
         off, rate = now.position - plan.position, now.velocity - plan.velocity
         away = np.flatnonzero(self._away).tolist()
-        durations = seconds_back(off, self.film.drone.limits)
-        times = np.arange(time, shot.phase.end, STAGE_S)
-        times = times[times < time + durations[away].max()]
-        reached = reaches(self.world, self.film.drone, self.targets, times) if len(times) else ()
+        durations = durations_back(self.film, off, time)
+        times = np.arange(time, time + float(durations[away].max()), STAGE_S)
+        names = [each.name for each in self.targets] if time > shot.phase.start + MOST_UNSURE_S else ()
+        reached = reaches(self.world, self.film.drone, self.targets, times, names)
         for r in away:
             back = self._back.begun(r, time, float(durations[r]), (off[r], rate[r]))
             on_way = times[times < time + durations[r]]
-            if self._is_clear(back.places(r, on_way), self.film.places(on_way), r, reached):
+            way = WayBack(on_way, back.places(r, on_way), self.film.places(on_way))
+            lack = return_lack(self._standing, way, r, reached, self._standing.keeping.margin)
+            if lack.clear and way.flyable(self.film):
                 self._back, self._away[r] = back, False
         if not self._away.any():
             self._active = None
 
-    def _is_clear(self, path: Array, plan: Array, run: int, reached: tuple[TargetReach, ...]) -> bool:
-        """Return whether a way (M, 3) to the plan keeps clear of where targets may be, and lacks no more
-        clearance from what stands than the plan does, (M, 3), metres.
+    def _note_late(self, shot: Rejoined, time: float) -> None:
+        """Note the runs that are not back on their plan in a phase that has to follow it."""
+        phase = next((p for p in self.film.track.phases if p.start <= time < p.end and _exact(p)), None)
+        if phase is None or phase.start < shot.phase.start:
+            return
+        what = f"shot `{phase.shot}`" if phase.shot is not None else "its landing"
+        for r in np.flatnonzero(self._away).tolist():
+            self.counts[r].late = self.counts[r].late or f"{what} at {phase.start:.1f} s"
 
-        reached : where targets may be, at the times of the way and later
-        """
-        assert self._standing is not None
-        most = np.maximum(self._standing.lack(plan), 0.0) + NEARER_M
-        clear = (each.until(len(path)).lack(run, path) <= NEARER_M for each in reached)
-        return bool((self._standing.lack(path) <= most).all()) and all(each.all() for each in clear)
+    def _send(self, time: float) -> None:
+        """Send the plans to the other drones."""
+        if self.own is not None:
+            assert self._held is not None
+            off = self._away & (self._active is not None or self._holds)
+            plans = zip(self._held.plans, off.tolist(), strict=True)
+            self.own.add(time, tuple(plan if away else None for plan, away in plans))
 
     def _around(self, shot: Anew | Rejoined, stages: Array) -> tuple[TargetReach, ...]:
         """Return where those moving targets may be at the stages 1 to N, and once more at N, that a shot does
@@ -225,7 +250,7 @@ class Guidance:
         """
         times = np.append(stages[1:], stages[-1])
         if not isinstance(shot, ComposedShot):
-            near = shot.target if isinstance(shot, Chased) else None
+            near = (shot.target,) if isinstance(shot, Chased) else ()
             return reaches(self.world, self.film.drone, self.targets, times, near)
         bodies = {each.target for each in shot.subjects} | {each.name for each in self.targets}
         reached = reaches(self.world, self.film.drone, (), times)
@@ -236,7 +261,9 @@ class Guidance:
         if isinstance(shot, Rejoined):
             self._come_back(shot, time)
             if self._active is None:
+                self._send(time)
                 return
+            self._note_late(shot, time)
         stages = time + STAGE_S * np.arange(shot.stages + 1, dtype=np.float64)
         known = (
             {} if isinstance(shot, Rejoined) else {each.name: each.foreseen(stages) for each in self.targets}
@@ -265,8 +292,7 @@ class Guidance:
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
             plans.append(self._replanned(r, situation, stages))
         self._held = self._held.replaced(plans)
-        if self.own is not None:
-            self.own.add(time, self._held.plans)
+        self._send(time)
 
     def _traffic(self, run: int, stages: Array) -> Traffic:
         """Return the sent positions of other drones at the stages, and the cones of their cameras."""
@@ -311,7 +337,6 @@ class Guidance:
 
         It approaches the estimate with the time constant COURSE_S. It stays constant while the target stands.
         """
-        assert self._course is not None
         if isinstance(shot, Chased) and shot.turns:
             track, velocity = (
                 self.world.mission.target(shot.target).track,
@@ -328,7 +353,6 @@ class Guidance:
         """Return the difference of the target's height from the planned one, (R,), metres, smoothed as the
         course.
         """
-        assert self._rise is not None
         if isinstance(shot, Chased):
             planned = self.world.mission.target(shot.target).at(time)[2]
             rise = known[shot.target].now.position[:, 2] - planned

@@ -22,8 +22,9 @@ from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import ClosestApproach, between, nearest
 from shotc.simulation.deviations import Lag, Peak, lags, misled, unplaced
 from shotc.simulation.flight import DroneRuns
-from shotc.simulation.guidance import Replans
+from shotc.simulation.replans import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
+from shotc.simulation.way_back import ReturnLack
 from shotc.simulation.world import World, at_times
 
 SIGHT_S = 0.2
@@ -68,6 +69,7 @@ class TrackingError:
         without other drones
     misled : the largest stray that is mainly its receiver's error
     unplaced : the largest error of its own position while it has none by satellites
+    straight : what its straight ways back after outages lack; None without them
     """
 
     drone: str
@@ -81,6 +83,7 @@ class TrackingError:
     spoiled: float = 0.0
     misled: Peak = field(default_factory=Peak)
     unplaced: Peak = field(default_factory=Peak)
+    straight: ReturnLack | None = None
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -314,4 +317,5 @@ def _course(
         near=near,
         replans=flown.replans[run] if flown.replans else None,
         spoiled=spoiled,
+        straight=flown.straight[run] if flown.straight else None,
     )

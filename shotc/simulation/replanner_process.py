@@ -7,19 +7,16 @@ a pure function of its problem and the two arguments of ``replan``, so a new pro
 
 from __future__ import annotations
 
-import faulthandler
-import os
 import pickle
 import subprocess
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from importlib.metadata import EntryPoint
-from pathlib import Path
 from typing import Any, BinaryIO, ClassVar, NamedTuple
 
 from shotc import child_process, plugins
-from shotc.diag.plugin_faults import one_line
 from shotc.plugin_api.replanner import (
     ChaseProblem,
     ChaseSituation,
@@ -34,9 +31,6 @@ LIMIT_S = 10.0
 
 START_S = 60.0
 """Seconds in which its process has to start and to import the plugin; longer than on a machine under load."""
-
-GRACE_S = 1.0
-"""Seconds after its limit at which a process without a parent ends itself."""
 
 OUR_PACKAGE = "shotc-casadi"
 
@@ -129,7 +123,7 @@ class ReplannerProcess:
     def _start(self) -> None:
         self._sent.clear()
         self._process = child_process.started(__name__, serve.__name__)
-        data = child_process.module_path() + pickle.dumps((self._reference, self._seconds + GRACE_S))
+        data = child_process.module_path() + pickle.dumps((self._reference, self._seconds))
         _, fault = self._within(START_S, data, "its process needs for its start")
         if fault is not None:
             self.close()
@@ -156,7 +150,7 @@ class ReplannerProcess:
             answered = pickle.load(process.stdout)
         except Exception:  # noqa: BLE001  half an answer, or none, may fail in any way
             with suppress(subprocess.TimeoutExpired):
-                process.wait(GRACE_S)  # it ends by itself, and has a status of its own then
+                process.wait(child_process.GRACE_S)  # it ends by itself, and has a status of its own then
         finally:
             timer.cancel()
             timer.join()
@@ -182,11 +176,9 @@ class RemotePlanner:
 
 
 def serve(orders: BinaryIO) -> None:
-    """Run in the process: answer the replans in ``orders`` on standard output until there are no more."""
-    # Only answers are written to the pipe; what the plugin prints goes to standard error.
-    with os.fdopen(os.dup(1), "wb") as out, Path(os.devnull).open("w") as nowhere:
-        os.dup2(2, 1)
-        reference, alone = pickle.load(orders)
+    """Run in the process: answer the replans in ``orders`` until there are no more."""
+    with child_process.answers() as out:
+        reference, seconds = pickle.load(orders)
         plugin, data = _loaded(reference)
         planners: dict[int, Any] = {}
         while True:
@@ -196,25 +188,22 @@ def serve(orders: BinaryIO) -> None:
                 order = pickle.load(orders)
             except EOFError:
                 return
-            faulthandler.dump_traceback_later(alone, exit=True, file=nowhere)
-            data = _answer(plugin, planners, order)
-            faulthandler.cancel_dump_traceback_later()
+            with child_process.ends_itself(seconds):
+                data = child_process.answer_of(partial(_replanned, plugin, planners, order))
 
 
 def _loaded(reference: str) -> tuple[Any, bytes]:
-    """Return a plugin, and the answer that says whether it could be loaded."""
-    try:
-        return EntryPoint("replanner", reference, "").load(), pickle.dumps((None, None))
-    except Exception as fault:  # noqa: BLE001  a plugin may raise anything
-        return None, pickle.dumps((None, one_line(fault)))
+    """Return a plugin, None if it cannot be loaded, and the answer that says whether it could be."""
+    plugins_loaded: list[Any] = []
+    data = child_process.answer_of(
+        lambda: plugins_loaded.append(EntryPoint("replanner", reference, "").load())
+    )
+    return (plugins_loaded or [None])[0], data
 
 
-def _answer(plugin: Replanner, planners: dict[int, Any], order: _Order) -> bytes:
-    """Return the answer of a planner and the fault that it raised, pickled; one of them is None."""
-    try:
-        if order.problem is not None:
-            make: Any = plugin.chase if isinstance(order.problem, ChaseProblem) else plugin.framing
-            planners[order.number] = make(order.problem)
-        return pickle.dumps((planners[order.number].replan(order.situation, order.last), None))
-    except Exception as fault:  # noqa: BLE001  a plugin may raise anything
-        return pickle.dumps((None, one_line(fault)))
+def _replanned(plugin: Replanner, planners: dict[int, Any], order: _Order) -> Any:
+    """Return the answer of the planner that an order names; the planner is made if it is new."""
+    if order.problem is not None:
+        make: Any = plugin.chase if isinstance(order.problem, ChaseProblem) else plugin.framing
+        planners[order.number] = make(order.problem)
+    return planners[order.number].replan(order.situation, order.last)

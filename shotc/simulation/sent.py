@@ -117,6 +117,10 @@ class SentPlans:
         position, velocity, acceleration = (np.array(part) for part in zip(*rows, strict=True))
         return VehicleSetpoint(position, velocity, acceleration)
 
+    def places(self, run: int, times: Array) -> Array:
+        """Return the positions of a run at times (M,), shape (M, 3), metres."""
+        return np.array([self._row(self.plans[run], time)[0] for time in times.tolist()])
+
     def _row(self, plan: Plan, time: float) -> tuple[Array, Array, Array]:
         k = int(np.searchsorted(plan.times, time, side="right")) - 1
         p, v = plan.places[k], plan.velocities[k]
@@ -137,14 +141,15 @@ class Sent:
     """The plans that a drone has sent to the others.
 
     age : seconds until a sent plan is known
+    plans : of all runs at each time, None for a drone that flies as planned
     """
 
     film: PlanSamples
     age: float
     times: list[float] = field(default_factory=list)
-    plans: list[tuple[Plan, ...]] = field(default_factory=list)
+    plans: list[tuple[Plan | None, ...]] = field(default_factory=list)
 
-    def add(self, time: float, plans: tuple[Plan, ...]) -> None:
+    def add(self, time: float, plans: tuple[Plan | None, ...]) -> None:
         """Send the plans of all runs at a time."""
         self.times.append(time)
         self.plans.append(plans)
@@ -152,11 +157,16 @@ class Sent:
     def places(self, run: int, stages: Array) -> Array:
         """Return the drone's expected positions at times (M,), as known at the first, (M, 3), metres.
 
-        Without a sent plan they are those of its trajectory.
+        Without a sent plan they are those of its trajectory. Who has sent no plan after the end of the last
+        one brakes and holds.
         """
         planned = np.asarray(self.film.track.curve(stages)[:, :3])
         plan = self._known(run, stages)
-        return planned if plan is None else _instead(planned, stages, plan, plan.places)
+        if plan is None:
+            return planned
+        if plan.times[-1] <= stages[0]:
+            return SentPlans((plan,), self.film.drone.limits.usable_acceleration).places(0, stages)
+        return _instead(planned, stages, plan, plan.places)
 
     def axes(self, run: int, stages: Array) -> Array:
         """Return unit vectors of its camera's directions at the times, (M, 3), W; without a sent aim as
@@ -164,7 +174,7 @@ class Sent:
         """
         planned = np.asarray(self.film.track.curve(stages)[:, [CAM_YAW, CAM_PITCH]])
         plan = self._known(run, stages)
-        if plan is not None and plan.aim is not None:
+        if plan is not None and plan.aim is not None and plan.times[-1] > stages[0]:
             planned = _instead(planned, stages, plan, plan.aim)
         yaw, pitch = planned.T
         return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
@@ -178,8 +188,7 @@ class Sent:
 
     def _known(self, run: int, stages: Array) -> Plan | None:
         k = bisect_right(self.times, float(stages[0]) - self.age) - 1
-        plan = None if k < 0 else self.plans[k][run]
-        return None if plan is None or plan.times[-1] <= stages[0] else plan
+        return None if k < 0 else self.plans[k][run]
 
 
 def _instead(planned: Array, stages: Array, plan: Plan, rows: Array) -> Array:

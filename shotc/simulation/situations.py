@@ -11,6 +11,7 @@ import numpy as np
 
 from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array
+from shotc.ir.bodies import centres
 from shotc.ir.drone import Drone
 from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, Near, Subject
@@ -270,7 +271,7 @@ def predicted(target: Target, stages: Array, of: ReplanInstant) -> tuple[Array, 
 
     Its height follows the plan, because a vertical velocity with an error of 0.3 m/s is not usable.
     """
-    course = np.array([target.at(t) for t in stages.tolist()])
+    course = centres(target, stages)
     if target.name not in of.known:
         return course, np.zeros_like(course)
     known = of.known[target.name]
@@ -286,7 +287,7 @@ def _drawn(mission: MissionIR, near: Near, stages: Array, of: ReplanInstant) -> 
     places = np.array([near_at(mission, near, t) for t in stages.tolist()])
     if near.beside is not None:
         target = mission.target(near.beside.target)
-        places += predicted(target, stages, of)[0] - [target.at(t) for t in stages.tolist()]
+        places += predicted(target, stages, of)[0] - centres(target, stages)
     return DrawnPose(places, near.yaw, near.pitch)
 
 

@@ -243,6 +243,12 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
             yield f"{first.drone}: not planned anew {lost} times, for lack of a target's position"
         reasons = [reason for c in counts for reason in (c.reason, c.blind) if reason]
         yield from (f"{first.drone}: {reason}" for reason in dict.fromkeys(reasons))
+        late = [c.late for c in counts if c.late]
+        if late:
+            yield (
+                f"{first.drone}: in {len(late)} of {len(done.runs)} runs it is not back on its plan for "
+                f"{late[0]}, because no way there is clear"
+            )
 
 
 def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:

@@ -7,13 +7,13 @@ the cylinder holds both, since the estimate of a lost target sinks or rises with
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.track_array import places as along
+from shotc.ir.bodies import centres
 from shotc.ir.drone import Drone
 from shotc.ir.target import Target
 from shotc.plugin_api.replanner import Walls
@@ -85,11 +85,15 @@ class TargetReach:
 
 
 def reaches(
-    world: World, drone: Drone, tracked: Sequence[TrackedTarget], times: Array, near: str | None = None
+    world: World,
+    drone: Drone,
+    tracked: Sequence[TrackedTarget],
+    times: Array,
+    expected: Collection[str] = (),
 ) -> tuple[TargetReach, ...]:
     """Return where the moving targets of a mission may be at times (M,), seconds.
 
-    near : a target that the drone flies beside on purpose: where it is expected counts alone
+    expected : targets of which the place where they are expected counts alone
     """
     known = {each.name: each for each in tracked}
     clearance = world.mission.rules.beside_target(drone.radius)
@@ -99,7 +103,7 @@ def reaches(
         if target.track is None and mine is None:
             continue
         reach = _expected(world, target, mine, times)
-        spread = 0.0 if mine is None or target.name == near else SURE * mine.tracker.spread(times)
+        spread = 0.0 if mine is None or target.name in expected else SURE * mine.tracker.spread(times)
         out.append(replace(reach, radius=reach.radius + spread, clearance=clearance))
     return tuple(out)
 
@@ -120,12 +124,7 @@ def with_targets(walls: Walls, reached: Sequence[TargetReach], run: int, places:
 def _expected(world: World, target: Target, known: TrackedTarget | None, times: Array) -> TargetReach:
     """Return the cylinder of a target where it is expected, without clearance."""
     count = (len(times), len(world.runs))
-    centre = (
-        np.broadcast_to(target.centre, (len(times), 3))
-        if target.track is None
-        else along(target.track, times)
-    )
-    planned = np.broadcast_to(centre[:, None], (*count, 3))
+    planned = np.broadcast_to(centres(target, times)[:, None], (*count, 3))
     place = planned if known is None else known.tracker.ahead(times)[..., :3]
     half, z = target.height / 2, (planned[..., 2], place[..., 2])
     return TargetReach(

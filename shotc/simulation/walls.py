@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -10,7 +11,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import CEILING, GROUND
 from shotc.planning.beside_mesh import BesideMesh
+from shotc.planning.clearances import clearances_of, from_parked
 from shotc.planning.obstacles import flight_space
 from shotc.planning.over_ground import OverGround
 from shotc.plugin_api.replanner import NO_WALLS, Keeping, Plan, Walls
@@ -26,6 +29,23 @@ m/s^2 deviates that much in 2.3 s, in which it replans four times.
 UP = np.array([0.0, 0.0, 1.0])
 FAR_M = 1e6
 """Metres below everything that is flown."""
+
+
+def keeping_of(mission: MissionIR, drone: Drone, half_angle: float | None = None) -> Keeping:
+    """Return the limits and clearances that a drone keeps as it flies.
+
+    half_angle : of the cone about its camera's axis without other drones, rad; None for no cone
+    """
+    rules, terrain = mission.rules, mission.terrain
+    return Keeping(
+        limits=drone.limits,
+        pitch=drone.gimbal.pitch,
+        zones=(*clearances_of(mission, drone), *from_parked(mission, drone)),
+        floor=rules.over_ground(drone.radius) if terrain is None else -inf,
+        ceiling=rules.max_height or inf if terrain is None else inf,
+        separation=rules.separation,
+        half_angle=half_angle,
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,16 +66,24 @@ class Standing:
             return Standing((), keeping)
         return Standing(flight_space(mission, drone).surfaces, keeping)
 
-    def lack(self, places: Array) -> Array:
-        """Return the missing clearance of a drone's centre at positions (M, 3), shape (M,), metres.
+    def lacks(self, places: Array) -> Array:
+        """Return the missing clearance of a drone's centre from each of K obstacles at positions (M, 3),
+        shape (K, M), metres.
 
-        It is at most 0 where all clearances hold.
+        It is at most 0 where the clearance holds. The last two are the floor and the ceiling.
         """
-        lacks = [np.full(len(places), -np.inf), *(-each.slack(places) for each in self.surfaces)]
+        lacks = [-each.slack(places) for each in self.surfaces]
         for zone in self.keeping.zones:
             gap = signed_distance(zone.solid, places)
             lacks.append(zone.metres + (gap if zone.inside else -gap))
-        return np.asarray(np.max(lacks, axis=0))
+        lacks += [self.keeping.floor - places[:, 2], places[:, 2] - self.keeping.ceiling]
+        return np.array(lacks)
+
+    def name(self, obstacle: int, place: Array) -> str:
+        """Return the name in plans of one of the K obstacles; place : (3,), the part near it is named."""
+        owners = [each.owner_at(place) for each in self.surfaces]
+        owners += [zone.owner for zone in self.keeping.zones]
+        return str([*owners, GROUND, CEILING][obstacle])
 
     def beside(self, last: Plan, stages: Array) -> Walls:
         """Return half-spaces beside a plan at stages (N + 1,), mission times; after its end the

@@ -73,6 +73,11 @@ class RecordingTick(NamedTuple):
     on: bool
 
 
+def preparing_from(vehicle: VehicleStatus, course: SetpointSeries) -> int:
+    """Return the tick from which a drone gets ready for its lift-off."""
+    return course.lifts - round(vehicle.autopilot.lead * RATE_HZ)
+
+
 class Pilot:
     """Sends one drone what its course and its stage require."""
 
@@ -83,7 +88,7 @@ class Pilot:
         self.course = course
         self.cuts = cuts
         self.stage = PilotStage.PARKED
-        self.begins = course.lifts - round(vehicle.autopilot.lead * RATE_HZ)
+        self.begins = preparing_from(vehicle, course)
         self.farthest = 0.0
         self.sent = 0
         self.taken = False

@@ -26,7 +26,7 @@ from shotc.stream.clock import RATE_HZ, Clock
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import Feed
 from shotc.stream.flight import FlightResult, PilotedDrone, StreamedFlight
-from shotc.stream.pilot import Pilot, RecordingTick
+from shotc.stream.pilot import Pilot, RecordingTick, preparing_from
 from shotc.stream.reading import read
 from shotc.stream.setpoints import SetpointSeries, course_of
 from shotc.stream.vehicle import VehicleStatus
@@ -167,7 +167,7 @@ class Session:
 
     def too_soon(self, aboard: Sequence[Aboard], at: float) -> Iterator[Diagnostic]:
         """Yield the error of a beginning before which drones cannot get ready; at : POSIX seconds."""
-        lead = max(-Pilot(who.ready.vehicle, who.course, ()).begins / RATE_HZ for who in aboard)
+        lead = max(-preparing_from(who.ready.vehicle, who.course) for who in aboard) / RATE_HZ
         left = at - self._clock.utc()
         if left < lead:
             yield Diagnostic(

@@ -5,21 +5,14 @@ The path and the answer pass through pipes; the refiner's prints go to standard 
 
 from __future__ import annotations
 
-import os
 import pickle
-import signal
 import subprocess
-import sys
 from importlib.metadata import EntryPoint
 from typing import Any, BinaryIO, NamedTuple
 
 from shotc import child_process
-from shotc.diag.plugin_faults import one_line
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import Deviation, DronePath, PathIR, TimedPath
-
-_GRACE_S = 1.0
-"""Seconds after its deadline at which a process without a parent ends itself."""
 
 
 class TooSlow(Exception):
@@ -70,23 +63,15 @@ def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContex
 
 def answer(orders: BinaryIO) -> None:
     """Run in the process: refine the path in ``orders`` and write the answer to standard output."""
-    # Only the answer is written to the pipe.
-    with os.fdopen(os.dup(1), "wb") as out:
-        os.dup2(2, 1)
+    with child_process.answers() as out:
         order: _Order = pickle.load(orders)
-        if sys.platform != "win32":
-            signal.setitimer(signal.ITIMER_REAL, order.seconds + _GRACE_S)
-        data = _answer(order)
-        out.write(data)
+        with child_process.ends_itself(order.seconds):
+            out.write(child_process.answer_of(lambda: _refined(order)))
 
 
-def _answer(order: _Order) -> bytes:
-    try:
-        refiner = EntryPoint("refiner", order.reference, "").load()
-        outcome = refiner.refine(order.path, PassContext(order.seed))
-        return pickle.dumps((_bare(outcome, order.path), None))
-    except BaseException as fault:  # noqa: BLE001  a plugin may raise anything, and this process ends anyway
-        return pickle.dumps((None, one_line(fault)))
+def _refined(order: _Order) -> Any:
+    refiner = EntryPoint("refiner", order.reference, "").load()
+    return _bare(refiner.refine(order.path, PassContext(order.seed)), order.path)
 
 
 def _bare(outcome: Any, path: PathIR) -> Any:

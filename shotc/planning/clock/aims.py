@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.camera import View
 from shotc.geom.pieces import Mask
-from shotc.geom.track_array import places as track_places
+from shotc.ir.bodies import centres
 from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.mission import MissionIR
@@ -94,7 +94,7 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
         return np.asarray(each[0])
     yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
     angles = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
-    offsets = np.stack([_centres(camera_task.mission, s, times) - places for s in placed])
+    offsets = np.stack([centres(camera_task.mission.target(s.target), times) - places for s in placed])
     references = np.stack([wanted_places(s, camera_task.start, times) for s in placed])
     for _ in range(MOST_ROUNDS):
         here = _errors(drone, offsets, references, angles)
@@ -118,7 +118,7 @@ def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: 
     many times at once.
     """
     drone = camera_task.drone
-    offset = _centres(camera_task.mission, subject, times) - places
+    offset = centres(camera_task.mission.target(subject.target), times) - places
     half = np.tan(drone.hfov / 2 if camera_task.lens is None else camera_task.hfov(times) / 2)
     u, v = wanted_places(subject, camera_task.start, times).T
     ray = np.stack([u * half, v * half / drone.aspect, np.ones(len(times))])  # right, up, forward
@@ -149,13 +149,6 @@ def _carried(angles: Array, none: Mask, upright: Mask) -> Array:
         last = np.where(before[rows, None] < 0, 0.0, angles[np.maximum(before[rows], 0)])
         angles[rows[:, None], columns] = last[:, columns]
     return angles
-
-
-def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
-    target = mission.target(subject.target)
-    if target.track is None:
-        return np.tile(np.array(target.centre), (len(times), 1))
-    return np.asarray(track_places(target.track, times))
 
 
 def _errors(drone: Drone, offsets: Array, references: Array, aim: Array) -> Array:

@@ -17,8 +17,8 @@ from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.camera import View, aim_at
 from shotc.geom.ease import MOST_PARTS, control, minimum_jerk
-from shotc.geom.track_array import places as track_places
 from shotc.geom.vec import wrapped
+from shotc.ir.bodies import centres
 from shotc.ir.drone import Drone, LensRange
 from shotc.ir.keyed import arrivals, is_keyed, zoom_parts
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
@@ -158,9 +158,7 @@ class Keyed:
         Straight above or below the target the yaw is undefined: there the angles stay near ``own``.
         """
         times, places = where
-        target = self.mission.target(name)
-        centres = np.tile(np.array(target.centre), (len(times), 1))
-        offsets = (centres if target.track is None else track_places(target.track, times)) - places
+        offsets = centres(self.mission.target(name), times) - places
         hfov, angles = self.hfov(times), own.copy()
         level = np.linalg.norm(offsets[:, :2], axis=1) >= STEEP_SHARE * np.linalg.norm(offsets, axis=1)
         for i in np.flatnonzero(level):

@@ -14,8 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.pieces import Mask
-from shotc.geom.track_array import places as track_places
-from shotc.ir.bodies import shapes
+from shotc.ir.bodies import centres, shapes
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.ir.target import Target
 from shotc.planning.clock.aims import CameraTask, aims_at
@@ -50,7 +49,7 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
     times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP_S)) + 1)
     before, after = plain(times)[:, :3], freer(times)[:, :3]
     targets = [camera_task.mission.target(s.target) for s in camera_task.subjects]
-    far = [np.linalg.norm(_places(target, times) - before, axis=1) for target in targets]
+    far = [np.linalg.norm(centres(target, times) - before, axis=1) for target in targets]
     away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
     moved = np.linalg.norm(after - before, axis=1)
     share = moved / np.maximum(away, STEP_S)
@@ -64,12 +63,6 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
 def _whole(camera_task: CameraTask, target: Target, times: Array, places: Array) -> Mask:
     """Return whether a target is whole in the frame of a camera with the task's angles, (M,)."""
     aims = aims_at(camera_task, times, places)
-    still = places - _places(target, times) + np.array(target.centre)
+    still = places - centres(target, times) + np.array(target.centre)
     cameras = Cameras(still, aims[:, 0], aims[:, 1], camera_task.hfov(times), camera_task.drone.aspect)
     return np.asarray(frames(cameras, target.centre, shapes(target, times)).in_frame)
-
-
-def _places(target: Target, times: Array) -> Array:
-    if target.track is None:
-        return np.tile(np.array(target.centre), (len(times), 1))
-    return np.asarray(track_places(target.track, times))

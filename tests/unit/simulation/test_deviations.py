@@ -12,7 +12,7 @@ import pytest
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
-from shotc.simulation.blind import BlindHold
+from shotc.simulation.blind import held_intervals
 from shotc.simulation.conditions import Outage
 from shotc.simulation.deviation_faults import deviations
 from shotc.simulation.film import film_of
@@ -132,8 +132,8 @@ def test_an_outage_while_it_lands_or_shorter_than_two_seconds_stops_nobody() -> 
     done = flown(RehearsalOptions())
     film = film_of(done.mission, done.ir.drones[0])
     lands = next(phase.start for phase in film.track.phases if phase.name == "land")
-    assert BlindHold.of(film, ((10.0, 12.0), (lands - 1.0, lands + 5.0))).held == ()
-    assert BlindHold.of(film, ((10.0, 12.5),)).held == ((12.0, 12.5),)
+    assert held_intervals(film, ((10.0, 12.0), (lands - 1.0, lands + 5.0))) == ()
+    assert held_intervals(film, ((10.0, 12.5),)) == ((12.0, 12.5),)
 
 
 @pytest.mark.long

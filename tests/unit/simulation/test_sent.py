@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -86,3 +88,17 @@ def test_others_know_a_plan_once_it_is_old_enough_and_the_mission_before():
     assert known[:10, 0] == pytest.approx(t + 0.1 * t * t)
     # Beyond its end the mission's plan is all that is known.
     assert known[-1] == pytest.approx([2.0 * later[-1], 0.0, 5.0])
+
+
+def test_who_sends_no_new_plan_brakes_and_holds_and_who_is_back_flies_as_planned():
+    film = _Film()
+    film.drone = SimpleNamespace(limits=SimpleNamespace(usable_acceleration=2.0))
+    sent = Sent(film, age=0.5)
+    sent.add(1.0, (plan(velocity=(3.0, 0.0, 0.0), acceleration=(0.0, 0.0, 0.0)),))
+    stages = 4.0 + 0.1 * np.arange(20)
+    held = sent.places(0, stages)
+    assert held[0] == pytest.approx([6.0 + 3.0 - 1.0, 0.0, 0.0])  # it has braked for 1 s
+    assert held[-1] == pytest.approx([6.0 + 9.0 / 4.0, 0.0, 0.0])
+    sent.add(4.0, (None,))
+    later = 4.5 + 0.1 * np.arange(5)
+    assert sent.places(0, later)[:, 0] == pytest.approx(2.0 * later)
