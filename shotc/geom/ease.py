@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import ceil, inf
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     from shotc.geom.bernstein import Array
@@ -38,19 +38,24 @@ def parts_of(speed_ratio: float) -> int | None:
     return int(parts) if parts <= MOST_PARTS else None
 
 
-def control(parts: int) -> list[tuple[float, float, list[float]]]:
-    """Return the pieces of a step: start and end as shares of the time, and control points.
+class StepPiece(NamedTuple):
+    """A piece of a step: start and end as shares of the time, and 6 control points in Bernstein form."""
 
-    These are of degree 5 in Bernstein form. The speed in a ramp is 3 y^2 - 2 y^3 of the constant one.
-    """
+    start: float
+    end: float
+    points: list[float]
+
+
+def control(parts: int) -> list[StepPiece]:
+    """Return the pieces of a step. The speed in a ramp is 3 y^2 - 2 y^3 of the constant one."""
     if parts == 1:
-        return [(0.0, 1.0, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0])]
+        return [StepPiece(0.0, 1.0, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0])]
     ramp = 1.0 / parts
     speed = parts / (parts - 1.0)
     rise = [speed * ramp * y for y in (0.0, 0.0, 0.0, 0.1, 0.3, 0.5)]
     even = [rise[-1] + k / 5.0 * (1.0 - 2.0 * rise[-1]) for k in range(6)]
     return [
-        (0.0, ramp, rise),
-        (ramp, 1.0 - ramp, even),
-        (1.0 - ramp, 1.0, [1.0 - y for y in reversed(rise)]),
+        StepPiece(0.0, ramp, rise),
+        StepPiece(ramp, 1.0 - ramp, even),
+        StepPiece(1.0 - ramp, 1.0, [1.0 - y for y in reversed(rise)]),
     ]

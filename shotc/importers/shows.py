@@ -64,7 +64,7 @@ class _Show:
     """
 
     starts: Array
-    origin: tuple[float, float, float | None] | None
+    origin: skyc.ShowOrigin | None
     times: Array
     places: Array
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
@@ -16,9 +18,9 @@ def composition_text(placed: PlacedShot) -> str:
     Examples are "thirds (center)" and "one left-third; other right-third"; it is "" if nothing is framed.
     """
     words: dict[str, dict[str, list[str]]] = {}
-    for target, composition, reference in _references(placed):
-        flown = words.setdefault(target, {}).setdefault(composition.name, [])
-        place = _place(composition, reference)
+    for used in _references(placed):
+        flown = words.setdefault(used.target, {}).setdefault(used.composition.name, [])
+        place = _place(used.composition, used.place)
         if place and place not in flown:
             flown.append(place)
     said = {target: ", ".join(_phrase(*item) for item in sets.items()) for target, sets in words.items()}
@@ -27,17 +29,25 @@ def composition_text(placed: PlacedShot) -> str:
     return "; ".join(f"{target} {text}" for target, text in said.items())
 
 
-def _references(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
+class _Reference(NamedTuple):
+    """A composition of a target, and the place of it that is used; None if it has no place."""
+
+    target: str
+    composition: Composition
+    place: Vec2 | None
+
+
+def _references(placed: PlacedShot) -> list[_Reference]:
     # Only what the composition pass chose counts: between keyframes a reference also passes other places.
     shot = placed.shot
     if not placed.keyframes:
         return [
-            (subject.target, composition, place)
+            _Reference(subject.target, composition, place)
             for subject, written in zip(placed.subjects, shot.subjects, strict=True)
             for composition, place in _in_turn(written.composition, subject)
         ]
     return [
-        (keyframe.target, written.composition, keyframe.reference)
+        _Reference(keyframe.target, written.composition, keyframe.reference)
         for keyframe, written in zip(placed.keyframes, shot.keyframes, strict=True)
         if keyframe.target is not None
     ]

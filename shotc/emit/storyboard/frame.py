@@ -60,7 +60,7 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: Mis
     for composition in dict.fromkeys(subject.composition for subject in moment.framed):
         _composition(canvas, shown, composition)
     taken: list[PageRectangle] = []
-    seen = {name: place for name, _, place in name_places(shown, mission)}
+    seen = {thing.name: thing.place for thing in name_places(shown, mission)}
     for subject in moment.framed:
         offset = shown.offset(mission.target(subject.target))
         taken += _marks(canvas, shown, subject, offset, seen.get(subject.target))
@@ -172,7 +172,7 @@ def _names(
     """Write the names of visible objects, subjects first and none on a target; return those without room."""
     box = shown.box
     inner = PageRectangle(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
-    things = sorted(name_places(shown, mission), key=lambda thing: thing[0] not in subjects)
+    things = sorted(name_places(shown, mission), key=lambda thing: thing.name not in subjects)
     targets = {target.name for target in mission.targets}
     labels, bodies = [], []
     for name, color, seen in things:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from math import dist, hypot
+from typing import NamedTuple
 
 import numpy as np
 
@@ -169,8 +170,16 @@ def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
     return bool(before(mission.terrain.ground, np.array(eye), axis).all())
 
 
-def name_places(shown: PictureRectangle, mission: MissionIR) -> list[tuple[str, Rgb, PageRectangle]]:
-    """Return name, colour and page rectangle of every object in the picture, near ones first.
+class NamedPlace(NamedTuple):
+    """An object in a picture: its name, the colour of that, and its rectangle on the page."""
+
+    name: str
+    color: Rgb
+    place: PageRectangle
+
+
+def name_places(shown: PictureRectangle, mission: MissionIR) -> list[NamedPlace]:
+    """Return the objects in the picture, near ones first.
 
     A target whose axis is behind the ground is left out.
     """
@@ -191,5 +200,6 @@ def name_places(shown: PictureRectangle, mission: MissionIR) -> list[tuple[str, 
         if (low < 1).all() and (high > -1).all():
             left, bottom = (float(c) for c in shown.place(np.maximum(low, -1.0)))
             right, top = (float(c) for c in shown.place(np.minimum(high, 1.0)))
-            names.append((thing.name, color, PageRectangle(left, bottom, right - left, top - bottom)))
+            place = PageRectangle(left, bottom, right - left, top - bottom)
+            names.append(NamedPlace(thing.name, color, place))
     return names

@@ -93,9 +93,9 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, 
     rate = min(mission.rate, most)
     position = heading = filmed = planned = 0.0
     shots: list[ShotError] = []
-    for part, (shot, start, end) in _parts(flight):
-        inside = flown.part == part
-        time = _frames(start, end, rate)
+    for part in _parts(flight):
+        shot, inside = part.shot, flown.part == part.number
+        time = _frames(part.start, part.end, rate)
         if not inside.any() or not len(time):
             continue
         plan = poses_at(flight, time)
@@ -106,7 +106,7 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, 
         heading = max(heading, float(np.abs(wrapped(met.poses.body_yaw - plan.body_yaw)).max()))
         shots.append(_shot_error(mission, flight, shot, plan, met))
         filmed += float(np.ptp(flown.elapsed[inside]))
-        planned += end - start
+        planned += part.end - part.start
     # Of two equally bad frames, the later one is named.
     worst = max(reversed(shots), key=lambda s: s.worst, default=ShotError("", 0.0, 0.0, 0.0, 0.0, 0.0))
     return Error(position, heading, worst.worst, worst.shot, worst.time, filmed, planned, tuple(shots))
@@ -138,9 +138,20 @@ def nearest_miss(obstacles: tuple[Obstacle, ...], flown: ReflownSamples) -> tupl
     return (name, depth) if depth > 0 else ("", 0.0)
 
 
-def _parts(flight: DroneTrajectory) -> list[tuple[int, tuple[str | None, float, float]]]:
-    """Return the stretches between starts and stops of recording, numbered as in the re-flight."""
-    parts: list[tuple[int, tuple[str | None, float, float]]] = []
+class _Part(NamedTuple):
+    """What is flown between a start and a stop of recording; number : as in the re-flight; shot : None for a
+    transit.
+    """
+
+    number: int
+    shot: str | None
+    start: float
+    end: float
+
+
+def _parts(flight: DroneTrajectory) -> list[_Part]:
+    """Return the parts of a flight, between starts and stops of recording."""
+    parts: list[_Part] = []
     number, shot = 0, None
     for phase in flight.phases:
         if phase.name in UPRIGHT:
@@ -148,11 +159,10 @@ def _parts(flight: DroneTrajectory) -> list[tuple[int, tuple[str | None, float, 
         if phase.shot != shot:
             number += 1 if shot is None or phase.shot is None else 2
         elif parts:
-            start = parts.pop()[1][1]
-            parts.append((number, (phase.shot, start, phase.end)))
+            parts[-1] = parts[-1]._replace(number=number, end=phase.end)
             continue
         shot = phase.shot
-        parts.append((number, (phase.shot, phase.start, phase.end)))
+        parts.append(_Part(number, phase.shot, phase.start, phase.end))
     return parts
 
 

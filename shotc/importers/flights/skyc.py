@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, radians, sin
 from posixpath import normpath
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,15 +61,23 @@ class ShowFlight:
     light: KeyedLight | None = None
 
 
+class ShowOrigin(NamedTuple):
+    """Where the frame of a show is: latitude and longitude, degrees, and altitude, metres, if it is given."""
+
+    lat: float
+    lon: float
+    alt: float | None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class SkycShow:
-    """A show. ``origin``: latitude, longitude (deg), altitude (m) of its frame; None if not given."""
+    """A show; origin : of its frame, None if not given."""
 
     flights: tuple[ShowFlight, ...]
-    origin: tuple[float, float, float | None] | None
+    origin: ShowOrigin | None
 
 
-def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | None) -> Array:
+def shift(origin: ShowOrigin | None, world: GeoOrigin | None) -> Array:
     """Return the position of the show's frame in the mission's frame, metres, shape (3,).
 
     It is zero if one of the origins is missing.
@@ -102,7 +110,7 @@ def show(data: bytes, *, lit: bool = False) -> SkycShow:
     return SkycShow(flights, _origin(location.get("origin")))
 
 
-def _origin(value: Any) -> tuple[float, float, float | None] | None:
+def _origin(value: Any) -> ShowOrigin | None:
     if value is None:
         return None
     if not isinstance(value, list) or len(value) < 2 or not all(map(_is_number, value[:2])):
@@ -110,7 +118,8 @@ def _origin(value: Any) -> tuple[float, float, float | None] | None:
     lat, lon = float(value[0]), float(value[1])
     if not is_place(lat, lon):
         refuse(BROKEN, f"its origin is at {lat:g}, {lon:g} deg, which is no latitude and longitude", WHOLE)
-    return lat, lon, float(value[2]) if len(value) > 2 and _is_number(value[2]) else None
+    alt = float(value[2]) if len(value) > 2 and _is_number(value[2]) else None
+    return ShowOrigin(lat, lon, alt)
 
 
 def _part(archive: Archive, name: str) -> Any:

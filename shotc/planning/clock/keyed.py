@@ -61,8 +61,8 @@ class KeyframeSegment:
     def lens(self) -> Piecewise:
         """The field of view over mission time, rad."""
         steps = control(self.parts)
-        knots = [self.start + x * (self.end - self.start) for x, _, _ in steps]
-        ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in shares] for _, _, shares in steps]
+        knots = [self.start + step.start * (self.end - self.start) for step in steps]
+        ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in step.points] for step in steps]
         return Piecewise(np.array([*knots, self.end]), np.array(ctrl)[:, :, None])
 
 

@@ -32,7 +32,7 @@ def bodies() -> Iterator[list[tuple[str, PageRectangle]]]:
     def seen(shown, mission):
         things = places(shown, mission)
         names = {target.name for target in mission.targets}
-        found.extend((name, place) for name, _, place in things if name in names)
+        found.extend((thing.name, thing.place) for thing in things if thing.name in names)
         return things
 
     def drawn(sheet, target):

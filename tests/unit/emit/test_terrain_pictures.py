@@ -85,9 +85,9 @@ def test_a_hill_hides_the_target_behind_it() -> None:
 
 
 def test_a_target_that_ground_hides_is_not_named_in_the_picture() -> None:
-    assert [name for name, *_ in name_places(look(), mission(ridge(), mast(-50.0)))] == ["mast"]
+    assert [thing.name for thing in name_places(look(), mission(ridge(), mast(-50.0)))] == ["mast"]
     assert name_places(look(), mission(ridge(), mast(50.0))) == []
-    assert [name for name, *_ in name_places(look(), mission(ridge(), mast(50.0, 90.0)))] == ["mast"]
+    assert [thing.name for thing in name_places(look(), mission(ridge(), mast(50.0, 90.0)))] == ["mast"]
 
 
 def test_ground_is_drawn_once_from_the_farthest_ring_to_the_nearest(monkeypatch: pytest.MonkeyPatch) -> None:

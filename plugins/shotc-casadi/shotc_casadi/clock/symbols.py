@@ -150,7 +150,7 @@ def stage(sizes: Sizes) -> StageSymbols:
     """
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(sizes))
     x, u = z[: sizes.states], z[sizes.states :]
-    given, walls, sight_lines, near, shown = _cut(p, sizes)
+    given, walls, sight_lines, near, shown = _parameters(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
     moved = _integrated(x[:PLACE_STATES], jerk, h)
@@ -292,11 +292,21 @@ def size(sizes: Sizes) -> int:
     )
 
 
-def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
-    """Return the parameters by name, and those of half-spaces, occluders, bodies and subjects."""
+class _StageParameters(NamedTuple):
+    """Parameters of a stage by name, and those of each half-space, line of sight, body and subject."""
+
+    named: dict[str, Any]
+    walls: list[Any]
+    sight_lines: list[Any]
+    bodies: list[Any]
+    subjects: list[Any]
+
+
+def _parameters(p: Any, sizes: Sizes) -> _StageParameters:
+    """Return the parts of a stage's vector of parameters."""
     at = sum(FIELDS.values())
     rows: list[list[Any]] = []
     for count, wide in sizes.rows:
         rows.append([p[at + wide * i : at + wide * (i + 1)] for i in range(count)])
         at += wide * count
-    return cut(p, FIELDS), rows[0], rows[1], rows[2], rows[3]
+    return _StageParameters(cut(p, FIELDS), *rows)

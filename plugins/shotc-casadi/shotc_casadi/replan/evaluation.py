@@ -98,16 +98,19 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
     p, g = ca.MX.sym("p", s.p.numel(), n), ca.MX.sym("g", s.g.numel())
     inputs, states = _rolled(s, n)(u, x0, g)
     cost, lack, excess = _judged(s, n)(inputs, states, p, g)
-    last, late, slopes_last, laid_last = _ended(s, states[:, -1], g)
+    end = _ended(s, states[:, -1], g)
+    late = end.lack
     price = ca.DM(prices.lacking)
     more = ca.fmax(late - lack[0, -1], 0)
     merit = ca.sum2(cost) + ca.dot(price, ca.sum2(lack)) + price[0] * more + prices.outside * ca.sum2(excess)
     motion = [inputs, states, merit, ca.fmax(ca.mmax(lack[0, :]), late)]
-    derived, places = _derived(s, n, prices.damping)
+    derivatives = _derived(s, n, prices.damping)
     before = ca.horzcat(x0, states[:, :-1])
-    gradient, hessian, rows, kept, onward, driven, low, high = derived(before, inputs, states, p, g)
+    gradient, hessian, rows, kept, onward, driven, low, high = derivatives.function(
+        before, inputs, states, p, g
+    )
     counts = tuple(each.numel() for each in s.rows)
-    pattern = Pattern(*places, laid_last, counts, s.firm.numel(), s.ends.numel())
+    pattern = Pattern(*derivatives.places, end.places, counts, s.firm.numel(), s.ends.numel())
     laid = layout(pattern, n, s.u.numel(), s.x.numel())
     count, slack = n * s.x.numel(), ca.DM.zeros(len(prices.lacking), n)
     unit = _unit(prices, lack, late)
@@ -115,8 +118,8 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
         _taken(laid.cost.order, [hessian]),
         _with_slack(gradient, s, ca.repmat(price, 1, n) * unit),
         _taken(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
-        _taken(laid.bound.order, [kept, slopes_last, _each(unit, counts, s.ends.numel())]),
-        -ca.vertcat(ca.vec(rows), last),
+        _taken(laid.bound.order, [kept, end.slopes, _each(unit, counts, s.ends.numel())]),
+        -ca.vertcat(ca.vec(rows), end.rows),
         _with_slack(low, s, slack),
         _with_slack(high, s, slack + ca.inf),
     ]
@@ -209,10 +212,14 @@ def _judged(s: StageExpressions, stages: int) -> Any:
     return one.map("all_judged", "serial", stages, [3], [], {})
 
 
-def _derived(
-    s: StageExpressions, stages: int, damping: float
-) -> tuple[Any, tuple[Places, Places, Places, Places]]:
-    """Return the function from all stages to the values of a programme, and the places of these values."""
+class _Derivatives(NamedTuple):
+    """The function from all stages to the values of a programme, and the places of four of these."""
+
+    function: Any
+    places: tuple[Places, Places, Places, Places]
+
+
+def _derived(s: StageExpressions, stages: int, damping: float) -> _Derivatives:
     w = ca.vertcat(s.u, s.y)
     slope = ca.jacobian(s.residuals, w)
     squares = ca.triu(2 * slope.T @ slope + damping * ca.SX.eye(w.numel()))
@@ -230,13 +237,23 @@ def _derived(
     ]
     one = _function("derived", [s.x, s.u, s.y, s.p, s.g], [*out, *bounds])
     places = (_places(squares), _places(onward), _places(driven), _places(kept))
-    return one.map("all_derived", "serial", stages, [4], [], {}), places
+    return _Derivatives(one.map("all_derived", "serial", stages, [4], [], {}), places)
 
 
-def _ended(s: StageExpressions, end: Any, g: Any) -> tuple[Any, Any, Any, Places]:
+class _End(NamedTuple):
+    """Rows of the last state, their violation, the values of their derivatives and the places of these."""
+
+    rows: Any
+    lack: Any
+    slopes: Any
+    places: Places
+
+
+def _ended(s: StageExpressions, end: Any, g: Any) -> _End:
     slopes = ca.jacobian(s.ends, s.y)
     function = _function("ended", [s.y, s.g], [s.ends, _lack(s.ends), _values(slopes)])
-    return *function(end, g), _places(slopes)
+    rows, lack, values = function(end, g)
+    return _End(rows, lack, values, _places(slopes))
 
 
 def _with_slack(of: Any, s: StageExpressions, slack: Any) -> Any:

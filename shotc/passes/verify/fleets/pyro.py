@@ -154,25 +154,33 @@ def _distances(
     flight, least = burns.flight, burns.cue.clear
     breaks = flight.track.breaks
     own = Piecewise(breaks, flight.flown.ctrl[drone])
-    for what, times, others in _others(ir, flights, flight, drone):
-        if len(others):
-            yield what, nearest(own, times, others, span, least)
+    for others in _others(ir, flights, flight, drone):
+        if len(others.ctrl):
+            yield others.what, nearest(own, others.breaks, others.ctrl, span, least)
     if burns.display.viewpoint is not None:
         eye = np.array(burns.display.viewpoint).reshape(1, 1, 1, 3)
         yield "the audience", nearest(own, breaks[[0, -1]], eye, span, least)
 
 
+class _Others(NamedTuple):
+    """Vehicles by a name for all; breaks and Bernstein points as in ``nearest``."""
+
+    what: str
+    breaks: Array
+    ctrl: Array
+
+
 def _others(
     ir: TrajectoryIR, flights: Sequence[FleetFlight], flight: FleetFlight, drone: int
-) -> Iterator[tuple[str, Array, Array]]:
-    """Yield all drones except one: a name, and breaks and Bernstein points as in ``nearest``."""
+) -> Iterator[_Others]:
+    """Yield all drones except one."""
     for fleet in flights:
         ctrl = fleet.flown.ctrl
         others = np.delete(ctrl, drone, axis=0) if fleet is flight else ctrl
-        yield f"drones of {fleet.fleet.name}", fleet.track.breaks, others
+        yield _Others(f"drones of {fleet.fleet.name}", fleet.track.breaks, others)
     still = flight.track.breaks[[0, -1]]
     for parked in parked_fleets(ir):
-        yield f"drones of {parked.name}", still, np.array(parked.pads).reshape(-1, 1, 1, 3)
+        yield _Others(f"drones of {parked.name}", still, np.array(parked.pads).reshape(-1, 1, 1, 3))
     for camera in bodies(ir):
         curve = camera.curve.channels(0, 1, 2)
-        yield f"camera {camera.drone}", curve.breaks, curve.ctrl[None]
+        yield _Others(f"camera {camera.drone}", curve.breaks, curve.ctrl[None])
