@@ -167,6 +167,18 @@ def test_the_cylinder_about_a_body_holds_it(shape: BoxShape | CylinderShape, yaw
     assert shape.radius <= hypot(*turned[np.hypot(turned[:, 0], turned[:, 1]).argmax(), :2]) + 1e-6
 
 
+def test_the_cylinder_about_a_group_is_the_least_one_about_its_centre() -> None:
+    parts = (
+        Part((3.0, 4.0, 1.0), CylinderShape(2.0, 3.0)),
+        Part((-1.0, 0.0, -4.0), CylinderShape(0.5, 1.0)),
+    )
+    group = GroupShape(parts)
+    points = surface(group)
+    assert group.radius == pytest.approx(np.hypot(points[:, 0], points[:, 1]).max(), abs=1e-5)
+    assert group.height == pytest.approx(2.0 * np.abs(points[:, 2]).max())
+    assert group.half_width((0.6, 0.8)) == pytest.approx(np.abs(points[:, :2] @ (0.6, 0.8)).max(), abs=1e-5)
+
+
 def test_a_wider_box_has_every_upright_side_farther_out_and_is_no_higher() -> None:
     box = BoxShape(6.0, 2.0, 3.0, (0.6, 0.8)).wider(0.5)
     assert (box.length, box.width, box.height, box.ahead) == (7.0, 3.0, 3.0, (0.6, 0.8))

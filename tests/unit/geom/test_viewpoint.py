@@ -70,6 +70,27 @@ def test_the_nearest_place_keeps_just_its_clearance(azimuth, elevation, near) ->
     assert MAN.shape.gap((x, y, z)) == pytest.approx(near, abs=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("azimuth", "elevation"), [(0.4, 0.2), (-2.0, 0.7), (3.0, -0.1), (None, 0.5), (None, -0.3), (1.1, None)]
+)
+def test_the_angle_from_the_required_view_is_that_between_the_two_directions(
+    azimuth: float | None, elevation: float | None
+) -> None:
+    for az, el in ((0.5, 0.1), (0.4, 0.4), (2.8, -0.2)):
+        toward = np.array(direction(az, el))
+        eye = np.array(MAN.centre) + 30.0 * toward
+        seen = judged(
+            (*eye, *aim_at(-toward, (0.0, 0.0), LENS.hfov, LENS.aspect)),
+            LENS,
+            MAN._replace(azimuth=azimuth, elevation=elevation),
+        )
+        asked = direction(az if azimuth is None else azimuth, el if elevation is None else elevation)
+        if elevation is None:
+            toward, asked = np.array(direction(az, 0.0)), direction(azimuth, 0.0)
+        angle = 2.0 * np.arcsin(0.5 * np.linalg.norm(toward - asked))
+        assert seen.angle == pytest.approx(angle, rel=0.03 if azimuth is None else 1e-9)
+
+
 @pytest.mark.parametrize(("yaw", "pitch"), [(0.6, 0.0), (-0.62, 0.0), (0.0, 0.4), (0.0, -0.37), (0.0, 0.0)])
 def test_a_subject_extends_out_of_the_frame_by_its_point_farthest_out(yaw: float, pitch: float) -> None:
     turn = np.linspace(0, 2 * pi, 4000)
