@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.push_apart import SLACK_SHARE, grain, nearest_pair, push_apart
+from shotc.show.geom.push_apart import SLACK_SHARE, close_pairs, grain, nearest_pair, push_apart
 
 
 def anywhere(_: Array, after: Array) -> Array:
@@ -34,6 +34,24 @@ def test_goals_end_apart_and_near_their_shape(seed: int, n: int, density: float)
     assert np.linalg.norm(outside, axis=1).max() <= 1.2 * (
         SLACK_SHARE * least + 0.12
     )  # 0.12: gaps of the points
+
+
+@pytest.mark.parametrize("upright", [False, True])
+def test_pairs_that_are_too_near_are_told_with_the_way_that_parts_them(upright: bool) -> None:
+    goals = np.random.default_rng(2).uniform(0.0, 3.0, (40, 3))
+    expected = {}
+    for i in range(40):
+        for j in range(i + 1, 40):
+            x, y, z = goals[i] - goals[j]
+            level = (x, y, 0.0) if np.hypot(x, y) >= abs(z) else (0.0, 0.0, z)
+            apart = np.array(level if upright else (x, y, z))
+            if np.linalg.norm(apart) < 0.8:
+                expected[i, j] = apart
+    found = close_pairs(goals, 0.8, upright)
+    assert list(zip(found.first.tolist(), found.second.tolist(), strict=True)) == sorted(expected)
+    assert found.apart == pytest.approx(np.array([expected[pair] for pair in sorted(expected)]))
+    assert found.distance == pytest.approx(np.linalg.norm(found.apart, axis=1))
+    assert any(apart[2] == 0.0 for apart in expected.values()) is upright
 
 
 def test_goals_that_are_apart_stay_to_the_last_bit() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.solvers.headings.bounded_cubic import within_limits
+from shotc.solvers.headings.bounded_cubic import PIECE_PARTS, _rows, within_limits
 from shotc.solvers.headings.energy import cubic
 from shotc.solvers.headings.task import HeadingTask
 
@@ -28,6 +28,26 @@ def test_the_largest_rate_and_acceleration_decide_wherever_they_are(seed: int) -
     assert kept(1.001 * rate, 1.01 * acceleration)
     assert not kept(0.999 * rate, FREE)
     assert not kept(FREE, 0.99 * acceleration)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rows_are_rates_at_the_ends_of_parts_and_hold_them_in_between(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    angles, slope = rng.uniform(-3, 3, 3), rng.uniform(-2, 2, 3)
+    matrix, limits = _rows(HeadingTask(AT, angles, rate=2.0, acceleration=5.0))
+    rows = matrix @ np.concatenate([angles, slope])
+    rates, bends = rows[limits == 2.0].reshape(2, -1), rows[limits == 5.0].reshape(2, 2)
+    curve = cubic(AT, angles, slope)
+    for begin, end, its, bend in zip(AT[:-1], AT[1:], rates, bends, strict=True):
+        parts = its.reshape(PIECE_PARTS, 3)
+        grid = np.linspace(begin, end, PIECE_PARTS + 1)
+        assert parts[:, 0] == pytest.approx(curve.derivative()(grid[:-1])[:, 0])
+        assert parts[:-1, 2] == pytest.approx(curve.derivative()(grid[1:-1])[:, 0])
+        for (low, high), points in zip(zip(grid, grid[1:], strict=False), parts, strict=True):
+            dense = curve.derivative()(np.linspace(low, high, 50)[:-1])
+            assert points.min() - 1e-9 <= dense.min() <= dense.max() <= points.max() + 1e-9
+        inside = np.array([begin + 1e-9, end - 1e-9])
+        assert bend == pytest.approx(curve.derivative(2)(inside)[:, 0], abs=1e-6)
 
 
 def test_a_turn_at_one_rate_has_that_rate() -> None:
