@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -43,7 +45,7 @@ def test_rows_are_rates_at_the_ends_of_parts_and_hold_them_in_between(seed: int)
         grid = np.linspace(begin, end, PIECE_PARTS + 1)
         assert parts[:, 0] == pytest.approx(curve.derivative()(grid[:-1])[:, 0])
         assert parts[:-1, 2] == pytest.approx(curve.derivative()(grid[1:-1])[:, 0])
-        for (low, high), points in zip(zip(grid, grid[1:], strict=False), parts, strict=True):
+        for (low, high), points in zip(pairwise(grid), parts, strict=True):
             dense = curve.derivative()(np.linspace(low, high, 50)[:-1])
             assert points.min() - 1e-9 <= dense.min() <= dense.max() <= points.max() + 1e-9
         inside = np.array([begin + 1e-9, end - 1e-9])
