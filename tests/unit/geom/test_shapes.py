@@ -5,7 +5,7 @@ from math import atan2, cos, hypot, pi, radians, sin
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.camera import View, frustum_margins, view
@@ -144,19 +144,41 @@ def test_length_lies_along_the_course_where_the_depth_of_a_zone_does() -> None:
     assert (solid.bottom, solid.top) == (zone.bottom, zone.top)
 
 
-@pytest.mark.slow
+@settings(max_examples=40)
 @given(boxes | cylinders, boxes | cylinders, offsets)
 def test_bodies_touch_where_no_direction_parts_them(
     a: BoxShape | CylinderShape, b: BoxShape | CylinderShape, offset: tuple[float, float, float]
 ) -> None:
-    turn = np.linspace(0, 2 * pi, 20_001)
+    turn = np.linspace(0, 2 * pi, 2001)
     x, y, z = offset
     across = (np.cos(turn), np.sin(turn))
     gap = abs(x * across[0] + y * across[1]) - a.half_width(across) - b.half_width(across)
     apart = max(float(np.max(gap)), abs(z) - 0.5 * (a.height + b.height))
-    assume(abs(apart) > 1e-3)
+    assume(abs(apart) > 0.02)
     assert bool(touch(a, b, offset)) is (apart < 0)
     assert bool(touch(b, a, (-x, -y, -z))) is (apart < 0)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.5, 2.0, -1.0])
+@pytest.mark.parametrize(
+    ("one", "other", "along", "aside"),
+    [
+        (BoxShape(10.0, 1.0, 2.0), BoxShape(8.0, 1.4, 2.0), 9.0, 1.2),
+        (BoxShape(10.0, 1.0, 2.0), CylinderShape(0.7, 2.0), 5.7, 1.2),
+        (CylinderShape(1.0, 2.0), CylinderShape(0.7, 2.0), 1.7, 1.7),
+    ],
+)
+def test_bodies_side_by_side_touch_where_their_sides_meet(
+    one: BoxShape | CylinderShape, other: BoxShape | CylinderShape, along: float, aside: float, yaw: float
+) -> None:
+    ahead = (cos(yaw), sin(yaw))
+    a, b = one.facing(ahead), other.facing(ahead)
+    for way, least in (((ahead[0], ahead[1]), along), ((-ahead[1], ahead[0]), aside)):
+        for far, met in ((least - 0.01, True), (least, True), (least + 0.01, False)):
+            assert bool(touch(a, b, (far * way[0], far * way[1], 1.0))) is met
+            assert bool(touch(b, a, (-far * way[0], -far * way[1], -1.0))) is met
+    assert touch(a, b, (0.0, 0.0, 2.0))
+    assert not touch(a, b, (0.0, 0.0, 2.01))
 
 
 @pytest.mark.slow
