@@ -13,7 +13,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from tests.experiments.mutants.changes import Mutant
@@ -21,6 +21,9 @@ from tests.experiments.mutants.recording import FOLDER, IMPORT, KNOWN, PATHS, te
 
 INSTANT_S = 0.02
 """CPU seconds by which one test is hardly quicker than another."""
+
+ELSEWHERE, BESIDE = 10.0, 3.0
+"""How much later tests come whose folder does not mirror the source, or whose file is not named like it."""
 
 
 class CoverageMap:
@@ -44,22 +47,30 @@ class CoverageMap:
 
     @cached_property
     def breadth(self) -> dict[str, int]:
-        """How many lines each context runs: who runs few looks closely."""
-        found: dict[str, int] = defaultdict(int)
-        for lines in self.lines.values():
-            for contexts in lines.values():
+        """How many lines each test runs, with those of what it shares: who runs few looks closely."""
+        lines: dict[str, int] = defaultdict(int)
+        for of_file in self.lines.values():
+            for contexts in of_file.values():
                 for context in contexts:
-                    found[context] += 1
+                    lines[context] += 1
+        found: dict[str, int] = defaultdict(int)
+        for context, count in lines.items():
+            for asker in self._all_asking({context}):
+                found[asker] += count
         return found
 
     def tests(self, mutant: Mutant) -> list[str]:
-        """Return the tests that run the statement of a mutant, quick ones that run little else first."""
+        """Return the tests that run the statement of a mutant, near quick ones that run little else first."""
         contexts = self._contexts(mutant)
         if IMPORT in contexts:
             contexts.update(*self.lines[mutant.path].values())
-        return sorted(
-            self._asking(contexts), key=lambda t: ((1 + self.breadth[t]) * (self.seconds[t] + INSTANT_S), t)
-        )
+
+        def lateness(test: str) -> tuple[float, str]:
+            cost = (1 + self.breadth[test]) * (self.seconds[test] + INSTANT_S)
+            return cost * _distance(mutant.path, test), test
+
+        asking = self._all_asking(contexts)
+        return sorted((context for context in asking if context in self.seconds), key=lateness)
 
     def imports(self, mutant: Mutant) -> bool:
         """Whether the statement of a mutant is run when modules are imported."""
@@ -74,15 +85,24 @@ class CoverageMap:
         for test in tests:
             self.seconds.pop(test, None)
 
-    def _asking(self, contexts: set[str]) -> set[str]:
-        """Return the tests among contexts, and those that asked for what is shared among them."""
+    def _all_asking(self, contexts: set[str]) -> set[str]:
+        """Return contexts, and those that asked for what is shared among them."""
         seen, waiting = set(contexts), list(contexts)
         while waiting:
             for asker in self.asked.get(waiting.pop(), ()):
                 if asker not in seen:
                     seen.add(asker)
                     waiting.append(asker)
-        return {context for context in seen if context in self.seconds}
+        return seen
+
+
+def _distance(path: str, test: str) -> float:
+    """Return how far a test is from a source, by its folder and the name of its file."""
+    source, place = PurePosixPath(path), PurePosixPath(test.partition("::")[0])
+    mirrored = PurePosixPath("tests/unit").joinpath(*source.parts[1:-1])
+    if place.parent not in {mirrored, mirrored.parent}:
+        return ELSEWHERE
+    return 1.0 if source.stem in place.stem else BESIDE
 
 
 def recorded(folder: Path, paths: Sequence[str], root: Path, options: Namespace) -> CoverageMap:

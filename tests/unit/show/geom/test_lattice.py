@@ -69,3 +69,27 @@ def test_layers_are_apart_in_space_and_denser_to_the_eye(count: int, upright: bo
     assert layers.depth == pytest.approx(1.0 if upright else sqrt(1.0 - ball**2))
     one = 1.0 if upright or count == 2 else 2 / sqrt(3)
     assert len(flat) == pytest.approx(count * one * 14.4**2, rel=0.08)
+
+
+@pytest.mark.parametrize(("number", "step"), [(100, 10.0 / 9.0), (64, 10.0 / 7.0), (36, 10.0 / 5.0)])
+def test_the_widest_lattice_that_holds_a_number_is_hardly_finer_than_squares_of_that_number(
+    number: int, step: float
+) -> None:
+    side = np.linspace(0.0, 10.0, 101)
+    square = np.column_stack([axis.ravel() for axis in np.meshgrid(side, side)])
+    for least in (0.4, 0.9):
+        found = widest(Mould(cKDTree(square), 0.06, True), number, least)
+        assert found is not None
+        assert len(found) == number
+        assert 0.84 * step < nearest(found, upright=False) < 1.02 * step
+    assert widest(Mould(cKDTree(square), 0.06, True), number, 1.05 * step) is None
+
+
+def test_a_lattice_lies_in_its_box_about_its_first_corner() -> None:
+    low, high = np.array([3.0, -1.0]), np.array([5.0, 2.5])
+    points = lattice(low, high, 1.0, True)
+    assert sorted(points.tolist()) == [[x, y] for x in (3.0, 4.0, 5.0) for y in (-1.0, 0.0, 1.0, 2.0)]
+    hexagons = lattice(low, high, 1.0, False)
+    rows = {round(float(y), 9): sorted(hexagons[hexagons[:, 1] == y, 0].tolist()) for y in hexagons[:, 1]}
+    assert [*rows] == pytest.approx([-1.0 + k * sqrt(3.0) / 2.0 for k in range(5)])
+    assert [*rows.values()] == [[3.0, 4.0, 5.0], [3.5, 4.5]] * 2 + [[3.0, 4.0, 5.0]]

@@ -114,6 +114,21 @@ def test_nobody_gets_far_between_two_samples(apart: Apart) -> None:
             assert np.linalg.norm(way * pusher.scale) <= STEP_SHARE * apart.across + 1e-9
 
 
+@pytest.mark.parametrize("late", np.linspace(0.0, 3.0, 7).tolist())
+@pytest.mark.parametrize("apart", [BALL, CAN])
+def test_who_passes_at_nine_tenths_of_the_distance_is_crowded_whenever_it_does(
+    apart: Apart, late: float
+) -> None:
+    aside = 0.9 * apart.across
+    coef = np.stack(
+        [
+            even((0.0, 0.0, 20.0), (0.0, 0.0, 20.0)),
+            even((-9.0 - late, aside, 20.0), (9.0 - late, aside, 20.0)),
+        ]
+    )
+    assert Pusher(BREAKS, DerivativeBounds(LIMITS), apart).crowded(coef, apart.across).tolist() == [0, 1]
+
+
 @pytest.mark.parametrize("apart", [BALL, CAN])
 def test_who_comes_too_near_is_crowded_and_is_pushed_away_and_the_others_stay(apart: Apart) -> None:
     coef, pusher = meeting(), Pusher(BREAKS, DerivativeBounds(LIMITS), apart)
