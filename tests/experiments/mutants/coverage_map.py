@@ -10,7 +10,7 @@ import subprocess
 import sys
 from argparse import Namespace
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path, PurePosixPath
@@ -29,15 +29,18 @@ ELSEWHERE, BESIDE = 10.0, 3.0
 class CoverageMap:
     """What the records say.
 
-    tests : of a file and a line; seconds : of CPU of each test; modules : tests of any line of a file
+    lines : contexts by file and line; asked : who asks for what is shared
+    seconds : of CPU of each test, without what it shares; shared : of what is shared
     """
 
     def __init__(self, records: Iterable[dict[str, Any]]) -> None:
         self.lines: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         self.asked: dict[str, set[str]] = defaultdict(set)
         self.seconds: dict[str, float] = {}
+        self.shared: dict[str, float] = {}
         for record in records:
             self.seconds.update(record["seconds"])
+            self.shared.update(record["shared"])
             self.forget(record["failed"])
             for name, by in record["asked"].items():
                 self.asked[name].update(by)
@@ -59,6 +62,20 @@ class CoverageMap:
                 found[asker] += count
         return found
 
+    @cached_property
+    def needs(self) -> dict[str, set[str]]:
+        """What is shared that each test asks for, itself or by what it asks for."""
+        found: dict[str, set[str]] = defaultdict(set)
+        for name in self.asked:
+            for asker in self._all_asking({name}):
+                found[asker].add(name)
+        return found
+
+    def cost(self, test: str, made: Container[str] = ()) -> float:
+        """Return the CPU seconds of a test, with those of all it shares that is not made yet."""
+        new = (self.shared.get(name, 0.0) for name in self.needs[test] if name not in made)
+        return self.seconds[test] + sum(new)
+
     def tests(self, mutant: Mutant) -> list[str]:
         """Return the tests that run the statement of a mutant, near quick ones that run little else first."""
         contexts = self._contexts(mutant)
@@ -66,8 +83,8 @@ class CoverageMap:
             contexts.update(*self.lines[mutant.path].values())
 
         def lateness(test: str) -> tuple[float, str]:
-            cost = (1 + self.breadth[test]) * (self.seconds[test] + INSTANT_S)
-            return cost * _distance(mutant.path, test), test
+            close = (1 + self.breadth[test]) * (self.cost(test) + INSTANT_S)
+            return close * _distance(mutant.path, test), test
 
         asking = self._all_asking(contexts)
         return sorted((context for context in asking if context in self.seconds), key=lateness)
@@ -156,6 +173,7 @@ def _text(path: Path) -> str:
 def _source_digest(root: Path, paths: Sequence[str]) -> str:
     """Return what tells one source from another."""
     files = sorted(file for path in paths for file in (root / path).rglob("*.py"))
+    files.append(root / "tests/experiments/mutants/recording.py")
     return sha256(
         "\n".join(f"{file.relative_to(root)} {text_digest(file)}" for file in files).encode()
     ).hexdigest()

@@ -38,17 +38,27 @@ class Recorder:
         self.coverage = coverage.Coverage(data_file=None, config_file=False, source=paths)
         self.stack = [IMPORT]
         self.asked: dict[str, set[str]] = defaultdict(set)
-        self.seconds: dict[str, float] = {}
+        self.seconds: dict[str, float] = defaultdict(float)
+        self.tests: set[str] = set()
+        self.since = time.process_time()
         self.failed: set[str] = set()
         self.files: dict[str, str] = {}
 
     def enter(self, context: str) -> None:
+        self.charge()
         self.stack.append(context)
         self.coverage.switch_context(context)
 
     def leave(self) -> None:
+        self.charge()
         self.stack.pop()
         self.coverage.switch_context(self.stack[-1])
+
+    def charge(self) -> None:
+        """Count the CPU since the last change of the context to the present one."""
+        now = time.process_time()
+        self.seconds[self.stack[-1]] += now - self.since
+        self.since = now
 
     def shares(self, function: Callable[..., Any]) -> Callable[..., Any]:
         """Cache a function as functools does, and note who asks for which of its values."""
@@ -85,10 +95,9 @@ class Recorder:
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
         name = _plain(item)
+        self.tests.add(name)
         self.enter(name)
-        before = time.process_time()
         result = yield
-        self.seconds[name] = time.process_time() - before
         self.leave()
         return result
 
@@ -126,7 +135,8 @@ class Recorder:
         record = {
             "lines": lines,
             "asked": {name: sorted(by) for name, by in self.asked.items()},
-            "seconds": self.seconds,
+            "seconds": {name: self.seconds[name] for name in self.tests},
+            "shared": {name: s for name, s in self.seconds.items() if name not in self.tests},
             "failed": sorted(self.failed),
             "files": self.files,
         }

@@ -68,10 +68,11 @@ class Bench:
 
     def _tests(self, mutant: Mutant) -> list[str]:
         """Return the tests of a mutant that there is time for, the one that killed it before first."""
-        total, found = 0.0, []
+        total, found, made = 0.0, [], set[str]()
         killer = self.memory.killer(mutant)
         for test in sorted(self.covered.tests(mutant), key=lambda test: test != killer):
-            total += self.covered.seconds[test]
+            total += self.covered.cost(test, made)
+            made |= self.covered.needs[test]
             if total > self.longest and found:
                 break
             found.append(test)
@@ -93,7 +94,7 @@ class Bench:
             _write(path, old)
 
     def _limits(self, tests: Sequence[str]) -> dict[str, float]:
-        return {test: START_SECONDS + LONGER * self.covered.seconds[test] for test in tests}
+        return {test: START_SECONDS + LONGER * self.covered.cost(test) for test in tests}
 
     def _failed(self) -> str:
         """Return the test that failed; none did where a module could not be imported."""

@@ -124,12 +124,32 @@ def test_who_asks_for_what_is_shared_runs_its_lines() -> None:
         "lines": lines,
         "asked": {"shared plan": ["t::b", "shared case"], "shared case": ["t::c"]},
         "seconds": {"t::a": 1.0, "t::b": 0.5, "t::c": 0.1, "t::d": 0.1},
+        "shared": {"shared plan": 0.2, "shared case": 0.3},
         "failed": [],
     }
-    assert CoverageMap([record]).tests(added) == ["t::c", "t::b", "t::a"]
+    covered = CoverageMap([record])
+    assert covered.tests(added) == ["t::c", "t::b", "t::a"]
+    assert covered.cost("t::c") == pytest.approx(0.6)
+    assert covered.cost("t::c", {"shared plan"}) == pytest.approx(0.4)
     assert CoverageMap([record, {**record, "failed": ["t::b"]}]).tests(added) == ["t::c", "t::a"]
     imported = {**record, "lines": {"m.py": {"1": [""], "2": ["", "t::a"], "9": ["t::d"]}}}
     assert set(CoverageMap([imported]).tests(added)) == {"t::a", "t::d"}
+
+
+def test_tests_beside_the_source_come_first_and_those_named_like_it_before_them() -> None:
+    (added, _) = mutants("shotc/geom/surface/near.py", "def f(a):\n    return a + 1\n")
+    tests = [
+        f"tests/unit/{name}.py::test"
+        for name in ("geom/surface/test_near", "geom/surface/test_far", "geom/test_all", "show/test_near")
+    ]
+    record = {
+        "lines": {"shotc/geom/surface/near.py": {"2": tests[::-1]}},
+        "asked": {},
+        "seconds": dict(zip(tests, (0.4, 0.2, 0.2, 0.2), strict=True)),
+        "shared": {},
+        "failed": [],
+    }
+    assert CoverageMap([record]).tests(added) == tests
 
 
 def test_equivalent_mutants_are_not_counted() -> None:
@@ -225,6 +245,7 @@ def test_a_mutant_meets_the_tests_of_its_line(tmp_path: Path) -> None:
         "lines": {"tests/held.py": lines},
         "asked": {},
         "seconds": dict.fromkeys(tests, 0.1),
+        "shared": {},
         "failed": [],
     }
     remembered = tmp_path / "memory.jsonl"

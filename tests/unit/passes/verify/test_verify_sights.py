@@ -74,6 +74,14 @@ def test_both_directions_are_claims_of_their_own() -> None:
     assert both[1].worst == pytest.approx(20.0 - 0.6, rel=0.011)
 
 
+@pytest.mark.parametrize("when", [1.0, 4.0, 6.0])
+def test_a_shot_of_one_frame_is_judged_at_that_frame(when: float) -> None:
+    crossing = through([0.0, 4.0, LENGTH], [at(20, 40, 10), at(20, 10, 10), at(20, -40, 10)])
+    pair = CameraAndBody(mission(), film("eye", still(EYE)), unfilmed("bird", crossing))
+    found = infimum(pair, np.array([when]), 0.0)
+    assert (found.at, found.proven, found.attained) == (when, *[float(pair.out(np.array([when]))[0])] * 2)
+
+
 def test_only_the_time_of_the_shot_counts() -> None:
     crossing = through([0.0, 4.0, LENGTH], [at(20, 40, 10), at(20, -40, 10), at(20, -40, 10)])
     early, late = (film("eye", still(EYE), span) for span in ((0.0, 4.0), (4.0, LENGTH)))
