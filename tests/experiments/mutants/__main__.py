@@ -77,14 +77,13 @@ def draw(found: Sequence[Mutant], number: int, seed: int) -> list[Mutant]:
 def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Namespace) -> Iterator[Trial]:
     """Try mutants side by side, each worker in a copy of its own, and say how each ends."""
     tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
-    copies = [OUT / f"copy-{k}" for k in range(options.jobs)]
-    remembered = OUT / "memory.jsonl"
-    benches = [
-        Bench(ROOT, copy, covered, tests, remembered=remembered, longest=options.longest) for copy in copies
-    ]
     free: SimpleQueue[Bench] = SimpleQueue()
-    for bench in benches:
+
+    def begin(number: int) -> Bench:
+        copy, remembered = OUT / f"copy-{number}", OUT / "memory.jsonl"
+        bench = Bench(ROOT, copy, covered, tests, remembered=remembered, longest=options.longest)
         free.put(bench)
+        return bench
 
     def one(mutant: Mutant) -> Trial:
         if is_equivalent(mutant):
@@ -96,6 +95,7 @@ def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Names
             free.put(bench)
 
     with ThreadPoolExecutor(options.jobs) as pool:
+        benches = list(pool.map(begin, range(options.jobs)))
         for trial in pool.map(one, drawn):
             print(line(trial), flush=True)
             yield trial

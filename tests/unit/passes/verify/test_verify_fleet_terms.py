@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
@@ -13,7 +14,7 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.limits import Timing
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.fleets.space import nearest
+from shotc.passes.verify.fleets.space import _boxes_apart, _off, nearest
 from tests.support.records import replace
 from tests.support.show_plans import display, fleet, mission, show
 from tests.support.verdicts import verdict_on
@@ -116,3 +117,31 @@ def test_of_drones_beside_a_moving_target_the_nearest_counts_not_the_one_whose_b
     found = claim(ir, "target giant")
     assert found.worst == pytest.approx(2.0 - 0.3, abs=1e-5)
     assert found.drones == ("swarm-2",)
+
+
+def test_boxes_of_drones_and_of_a_target_are_as_far_apart_as_boxes_are() -> None:
+    # A target of radius 2 and height 4 that goes 10 m to the East; drones that stand, on one piece.
+    runner = Target(
+        "runner",
+        (0.0, 0.0, 2.0),
+        CylinderShape(2.0, 4.0),
+        ("targets", "runner"),
+        Track((0.0, 4.0, 10.0), ((0.0, 0.0, 2.0), (4.0, 0.0, 2.0), (10.0, 0.0, 2.0))),
+    )
+    stands = [(-5.0, 0.0, 2.0), (15.0, 6.0, 2.0), (5.0, 0.0, 9.0), (5.0, -9.0, -3.0), (11.0, 1.0, 3.0)]
+    ctrl = np.repeat(np.array(stands)[:, None, None], 4, axis=2)
+    both = FleetPieces(np.array([0.0]), np.array([10.0]), ctrl)
+    assert _boxes_apart(both, runner) == pytest.approx([3.0, 5.0, 5.0, np.hypot(7.0, 3.0), 0.0])
+    # In the last second it is between 9 and 10 m: only the last piece counts where it is nearest.
+    halves = FleetPieces(np.array([0.0, 9.0]), np.array([1.0, 10.0]), np.repeat(ctrl, 2, axis=1))
+    assert _boxes_apart(halves, runner)[[0, 1, 2]] == pytest.approx([3.0, 5.0, np.hypot(2.0, 5.0)])
+    assert _off(runner, np.array(stands)) == pytest.approx(
+        [3.0, np.hypot(15.0, 6.0) - 2.0, *_away(stands[2:])]
+    )
+    assert _off(runner, np.array([[1.0, 1.0, 2.0]])).tolist() == [0.0]
+
+
+def _away(places: list[tuple[float, float, float]]) -> list[float]:
+    return [
+        float(np.hypot(max(np.hypot(x, y) - 2.0, 0.0), max(abs(z - 2.0) - 2.0, 0.0))) for x, y, z in places
+    ]
