@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from shotc import api
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
+from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.path import PathDeviation
+from shotc.ir.target import Target
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.explained import (
     NEAR_M,
@@ -79,6 +82,8 @@ def test_pictures_move_a_placed_camera_only_for_other_drones() -> None:
     both = replace(alone, drones=alone.drones * 2)
     assert for_the_picture(alone, 10.0, placed=False) == 5.0
     assert for_the_picture(alone, 10.0, placed=True) == 0.0
+    strict = replace(alone, rules=replace(alone.rules, visibility="require"))
+    assert for_the_picture(strict, 10.0, placed=True) == 0.0
     for strength, most in (("off", 0.0), ("prefer", 2.0), ("require", 5.0)):
         mission = replace(both, rules=replace(both.rules, visibility=strength))
         assert for_the_picture(mission, 10.0, placed=True) == most
@@ -93,6 +98,81 @@ def test_limits_explain_the_way_to_stop_and_what_is_too_fast() -> None:
     assert for_its_limits(slow, EAST, 1.5) == pytest.approx(held_back + 4.0 * 1.0)
     still = ExpectedPlaces(np.zeros((5, 3)), np.arange(5.0))
     assert for_its_limits(slow, still, 1.5) == 0.0
+
+
+def test_wind_from_ahead_makes_a_course_too_fast_and_rise_counts_in_both_directions() -> None:
+    one = flight()
+    limits = replace(
+        one.drone.limits, speed=4.0, climb=1.0, descent=0.5, acceleration=2.0, jerk=8.0, wind=(-1.0, 3.0)
+    )
+    slow = JudgedFlight(one.mission, replace(one.drone, limits=limits), one.track)
+    times = np.linspace(0.0, 10.0, 101)
+    for rise, slower in ((2.0, 1.0), (-2.0, 1.5)):
+        places = times[:, None] * np.array([3.0, 0.0, rise])
+        fastest = min(3.0, limits.fastest) + 1.0
+        stops = fastest**2 / (2.0 * limits.usable_acceleration) + fastest * limits.usable_acceleration / 8.0
+        behind = 10.0 * hypot(5.0 - 4.0, slower)
+        assert for_its_limits(slow, ExpectedPlaces(places, times), 0.5) == pytest.approx(behind + stops)
+
+
+def body(name: str, centre: tuple[float, float, float], *, moves: bool) -> Target:
+    there = (centre[0] + 4.0, centre[1], centre[2])
+    track = Track((0.0, 20.0), (centre, there)) if moves else None
+    return Target(name, centre, CylinderShape(1.0, 6.0), ("targets", name), track)
+
+
+def test_targets_explain_the_way_round_them_where_they_are_then() -> None:
+    one = flight()
+    near = one.mission.rules.target_clearance + one.drone.radius + NEAR_M
+    beside = 1.0 + near
+    # EAST passes x = 0 at 10 s, when what moves is 2 m further.
+    for moves in (False, True):
+        for aside, met in ((beside - 0.1, True), (beside + 0.1, False)):
+            targets = (
+                body("far", (0.0, 500.0, 30.0), moves=False),
+                body("it", (0.0, aside, 30.0), moves=moves),
+            )
+            there = replace(one, mission=replace(one.mission, targets=targets))
+            expected = {"target it": 6.0 + 2.0 * near} if met else {}
+            assert in_the_way(there, EAST) == pytest.approx(expected)
+            assert in_the_way(there, EAST, placed=True) == (pytest.approx(expected) if moves else {})
+            assert in_the_way(there, EAST._replace(times=None)) == ({} if moves else pytest.approx(expected))
+
+
+def test_the_fastest_stretch_of_a_course_tells_how_long_it_takes_to_stop() -> None:
+    one = flight()
+    limits = replace(one.drone.limits, speed=9.0, climb=2.0, descent=2.0, acceleration=2.0, jerk=8.0)
+    free = JudgedFlight(one.mission, replace(one.drone, limits=limits), one.track)
+    steps = np.array([[1.0, 0.0, 0.0], [3.0, 0.0, 0.5], [2.0, 0.0, -1.5]])
+    course = ExpectedPlaces(np.vstack([np.zeros(3), np.cumsum(steps, axis=0)]), np.arange(4.0))
+    fastest = 3.0 + 1.5
+    stops = fastest**2 / (2.0 * limits.usable_acceleration) + fastest * limits.usable_acceleration / 8.0
+    assert for_its_limits(free, course, 0.5) == pytest.approx(stops)
+
+
+def test_another_drone_that_passes_explains_the_way_round_it() -> None:
+    one = flight()
+    near = one.mission.rules.separation + NEAR_M
+    beside = replace(one, others=(replace(one.track, drone="other"),))
+    times = np.linspace(one.track.curve.start, one.track.curve.end, 40)
+    there = one.track.curve(times)[:, :3]
+    for away, met in ((near - 0.1, True), (near + 0.1, False)):
+        # It comes as near as that at one time alone.
+        off = np.where(np.arange(40) == 25, away, away + 30.0)[:, None] * np.array([0.6, 0.8, 0.0])
+        course = ExpectedPlaces(there + off, times)
+        found = in_the_way(beside, course, placed=True)
+        assert found == ({"drone other": pytest.approx(2.0 * near)} if met else {})
+        assert in_the_way(beside, course._replace(times=None), placed=True) == {}
+
+
+def test_a_target_that_goes_along_is_as_far_as_it_is_then() -> None:
+    east = ((-50.0, 8.0, 30.0), (50.0, 8.0, 30.0))
+    runner = Target("it", (-50.0, 8.0, 30.0), CylinderShape(1.0, 6.0), (), Track((0.0, 20.0), east))
+    mission = replace(flight().mission, targets=(runner, body("post", (50.0, 0.0, 30.0), moves=False)))
+    assert farthest(mission, ("it",), EAST) == pytest.approx(8.0)
+    assert farthest(mission, ("post",), EAST) == pytest.approx(100.0)
+    assert farthest(mission, ("it", "post"), EAST) == pytest.approx(8.0)
+    assert farthest(mission, ("it",), EAST._replace(times=None)) == pytest.approx(hypot(100.0, 8.0))
 
 
 def test_what_films_nobody_counts_as_ten_metres_away() -> None:
