@@ -175,17 +175,19 @@ def _demanded(
     yaw, pitch, rates = film.yaw[k], film.pitch[k], np.array([film.yaw_rate[k], film.pitch_rate[k]])
     angles = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
     framed = () if world.conditions.loop == "replay" else film.framed
-    aims = [
-        (
-            each.share[k],
-            _aim(film, k, each.reference, drone, _known(world, each.target, targets, film.times[k])),
+    away = [
+        _shared(
+            each.share[k : k + STEPS_PER_RECORD + 1],
+            _beyond(
+                _aim(film, k, each.reference, drone, _known(world, each.target, targets, film.times[k])),
+                angles,
+            ),
         )
         for each in framed
         if each.share[k] > 0.0
     ]
-    if aims:
-        away = np.mean([share * _beyond(aim, angles) for share, aim in aims], axis=0)
-        angles = angles + away
+    if away:
+        angles = angles + np.mean(away, axis=0)
         low, high = film.drone.gimbal.pitch
         angles[:, 1] = np.clip(angles[:, 1], low, high)
     axes = axes_of(angles[:, 0], angles[:, 1])
@@ -197,6 +199,17 @@ def _beyond(aim: Array, planned: Array) -> Array:
     away = aim - planned
     away[:, 0] = wrapped(away[:, 0])
     return away
+
+
+def _shared(share: Array, away: Array) -> Array:
+    """Return the part of angles and rates beside the plan, (R, 4), that a camera follows.
+
+    share : the part now and until the next step of the gimbal; its change turns the camera, too
+    """
+    change = (share[-1] - share[0]) / (STEPS_PER_RECORD * STEP_S)
+    part = share[0] * away
+    part[:, 2:] += change * away[:, :2]
+    return np.asarray(part)
 
 
 def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: float) -> tuple[Array, Array]:

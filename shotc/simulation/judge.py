@@ -70,6 +70,7 @@ class TrackingError:
     misled : the largest stray that is mainly its receiver's error
     unplaced : the largest error of its own position while it has none by satellites
     straight : what its straight ways back after outages lack; None without them
+    landed : horizontal distance from its pad at the end, metres
     """
 
     drone: str
@@ -84,6 +85,7 @@ class TrackingError:
     misled: Peak = field(default_factory=Peak)
     unplaced: Peak = field(default_factory=Peak)
     straight: ReturnLack | None = None
+    landed: float = 0.0
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -173,6 +175,7 @@ def judged(
             tuple(
                 replace(
                     _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r))),
+                    landed=_landed(f, ir.drones[d], r),
                     misled=led[d][r],
                     unplaced=blind[d][r],
                 )
@@ -296,6 +299,11 @@ def _spoiled(
         radius = mission.drone(other.drone).radius
         seen |= outside(eyes, places, radius) < 0.0 if cone is None else off_axis(eyes, places, radius) < cone
     return float(seen.mean())
+
+
+def _landed(flown: DroneRuns, track: DroneTrajectory, run: int) -> float:
+    """Return the horizontal distance from the end of the plan, metres."""
+    return float(np.linalg.norm(flown.position[-1, run, :2] - track.curve(track.curve.end)[:2]))
 
 
 def _course(

@@ -198,6 +198,7 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
         names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
         yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
     yield from _spoiled(done)
+    yield from _landed(done)
     if done.runs[0].fleets and done.conditions.wind.speed:
         yield "fleets fly in gusts alone: their drones hold their speed over ground in any steady wind"
     if alike(done.ir, done.conditions):
@@ -217,6 +218,13 @@ def _spoiled(done: Rehearsed) -> Iterator[str]:
         if share > 0.0:
             seen = f"{at_least(100 * share, 1)} % of its pictures"
             yield f"{first.drone}: another drone is in {seen} in run {run}"
+
+
+def _landed(done: Rehearsed) -> Iterator[str]:
+    """Yield a remark on how far off its pad each drone lands."""
+    for i, first in enumerate(done.runs[0].courses):
+        off, run = max((run.courses[i].landed, run.number) for run in done.runs)
+        yield f"{first.drone}: lands up to {at_least(off)} m off its pad, in run {run}"
 
 
 def _planned_anew(done: Rehearsed) -> Iterator[str]:

@@ -107,6 +107,7 @@ def test_a_film_is_flown_and_written(run: Run, given) -> None:
     off = [[float(r[f"{a}_m"]) - float(r[f"plan_{a}_m"]) for a in "xyz"] for r in rows]
     course = made["runs"][made["worst_run"]]["courses"][0]
     assert np.linalg.norm(off, axis=1).max() == pytest.approx(course["farthest"], abs=0.01)
+    assert np.linalg.norm(off[-1][:2]) == pytest.approx(course["landed"], abs=0.02)
 
 
 @pytest.mark.long

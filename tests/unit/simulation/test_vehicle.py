@@ -76,3 +76,22 @@ def test_wind_faster_than_the_tilt_can_hold_blows_a_drone_away_and_leaves_number
 def test_vectors_are_shortened_to_a_norm_and_left_alone_below_it():
     out = within(np.array([[3.0, 4.0, 0.0], [0.3, 0.4, 0.0], [0.0, 0.0, 0.0]]), 1.0)
     assert out == pytest.approx(np.array([[0.6, 0.8, 0.0], [0.3, 0.4, 0.0], [0.0, 0.0, 0.0]]))
+
+
+@pytest.mark.slow
+def test_a_drone_overshoots_where_it_brakes_by_the_drag_that_its_integrator_still_holds():
+    def past(drag):
+        """Fly at 8 m/s for 20 s, brake at 3 m/s^2, and return how far past the end it is 3 s later."""
+        vehicle, state = Vehicle(drag=drag), VehicleState(STILL, np.array([[8.0, 0, 0]]), STILL, STILL)
+        stops = 20.0 + 8.0 / 3.0
+        for k in range(round((stops + 3.0) / STEP_S)):
+            t = k * STEP_S
+            left = min(max(t - 20.0, 0.0), 8.0 / 3.0)
+            x = 8.0 * min(t, stops) - 1.5 * left**2
+            braking = -3.0 if 20.0 < t < stops else 0.0
+            asked = (np.array([[value, 0.0, 0.0]]) for value in (x, 8.0 - 3.0 * left, braking))
+            state = moved(vehicle, state, VehicleSetpoint(*asked), STILL)
+        return state.position[0, 0] - (8.0 * stops - 1.5 * (8.0 / 3.0) ** 2)
+
+    assert 0.3 < past(Vehicle().drag) < 0.7
+    assert abs(past(0.0)) < 0.1

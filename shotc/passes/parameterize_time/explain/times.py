@@ -91,7 +91,14 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
     total = phases[-1].end - phases[0].start
     longest = sorted(phases, key=lambda p: p.start - p.end)
     shot = next((s for p in longest for s in mission.shots if p.shot == s.id), None)
-    labels = [mission.origins.value((*drone.path, "endurance"), "the endurance")]
+    of_power = (*drone.path, "power") in mission.origins.keys
+    path = (*drone.path, "power" if of_power else "endurance")
+    more = f"if the battery has it, write `endurance: {at_least(total)} s`"
+    if of_power:  # a written endurance would not change what the battery holds
+        more = (
+            f"fly with a battery that hovers {at_least(total)} s down to its reserve, and write it in `power`"
+        )
+    labels = [mission.origins.value(path, "the endurance")]
     if shot is not None:
         labels.append(mission.origins.key(shot.path, "the longest shot"))
     by = () if drone.power is None else (f"it hovers {drone.endurance_text}",)
@@ -101,8 +108,7 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
         f"{plain(drone.endurance)} s",
         tuple(labels),
         (f"longest first: {phases_in_words(tuple(longest))}", *by),
-        f"shorten the mission by {at_least(total - drone.endurance)} s, cut it in two, or, if the battery "
-        f"has it, write `endurance: {at_least(total)} s`",
+        f"shorten the mission by {at_least(total - drone.endurance)} s, cut it in two, or {more}",
     )
 
 

@@ -8,6 +8,7 @@ from math import pi, radians
 import numpy as np
 import pytest
 
+from shotc.diag.model import Span
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.limits import Limits
 from shotc.ir.passes import PassContext
@@ -137,6 +138,16 @@ class TestEndurance:
         assert fault.labels[0].span == mission().origins.values["drones", "cam1", "endurance"]
         over = number_before(fault.help, " s, cut", after="by ")
         shot_time(straight(duration=80.0 - over), mission(endurance=60.0))
+
+    def test_where_the_power_is_written_no_other_endurance_is_proposed(self) -> None:
+        written = mission(endurance=60.0)
+        of_power = {("drones", "cam1", "power"): Span(6, 30, 6, 40)}
+        keys = {**written.origins.keys, **of_power}
+        written = replace(written, origins=written.origins._replace(keys=keys))
+        (fault,) = faults(flight(written, straight(duration=80.0)))
+        assert fault.labels[0].span == Span(6, 30, 6, 40)
+        assert "`endurance:" not in fault.help
+        assert "a battery that hovers" in fault.help
 
 
 class TestAngles:
