@@ -277,4 +277,36 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "*  ->  /",
         "a quotient has the sign of the product, and the language refuses equal ends",
     ),
+    Equivalent(
+        "shotc/show/solvers/arc_move.py",
+        "needs = np.hypot(speeds, np.sqrt(busy.shares(bend[:, :2], 2, bend[:, 2]) / ASKED_SHARE))",
+        "2  ->  3",
+        "a column more than there are parts is not used",
+        0,
+    ),
+    Equivalent(
+        "shotc/passes/verify/sight.py",
+        "return max(0.0, sup_convex(bend, norm, lambda best: max(1e-3, 0.05 * abs(best))).proven)",
+        "0.05  ->  1.05",
+        "a coarser bound of a rate is above it as well; the search halves until its own gap is closed",
+    ),
+    Equivalent(
+        "shotc/passes/verify/fleets/burning.py",
+        "bound = outside_of_mesh(burning, (float(burning.low[0]), burning.ctrl[:, 0, 0]), mesh, least)",
+        "0  ->  1",
+        "who is inside at one of the two places and outside at the other passes the surface: it is too near either way",
+        1,
+    ),
+    Equivalent(
+        "shotc/show/solvers/own_heights.py",
+        "TOLERANCE = 1e-7",
+        "1e-7  ->  9.999999999999999e-05",
+        "a round begins from what the one before gave, however rough; what is taken is looked at, and proved by callers",
+    ),
+    Equivalent(
+        "shotc/show/solvers/wave_move.py",
+        "LEAST_PIECES = 12",
+        "12  ->  13",
+        "a spline of one piece more flies the same wave; no number of pieces is promised",
+    ),
 )

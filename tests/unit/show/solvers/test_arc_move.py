@@ -73,9 +73,27 @@ def test_the_time_along_a_path_follows_what_speed_and_acceleration_need_of_their
     assert (np.diff(passed) > 0.0).all()
 
 
+def test_a_part_that_needs_acceleration_takes_longer_by_what_that_is_of_its_limit() -> None:
+    """Level for the first half of 5 m, then along a parabola with an acceleration of 6 m."""
+    short = Drones.of((FROM, 0.9 * FROM + 0.1 * TO), np.zeros(3), LIMITS, 1.0)
+    u = np.linspace(0.0, 1.0, 401)
+    passed = times_of(short, LINE, 3.0 * np.maximum(u - 0.5, 0.0) ** 2)
+    speeds = np.maximum(5.0 / SPEED, 6.0 * np.maximum(u - 0.5, 0.0) / CLIMB)
+    needs = np.where(u > 0.5, np.hypot(speeds, np.sqrt(6.0 / ACCELERATION / ASKED_SHARE)), speeds)
+    expected = np.concatenate([[0.0], np.cumsum(0.5 * (needs[1:] + needs[:-1]))])
+    assert passed == pytest.approx(expected / expected[-1], abs=0.2 * SMOOTHED_SHARE)
+
+
 def test_whoever_stays_has_the_same_time_for_every_part() -> None:
     still = Drones.of((FROM, FROM), FROM[0], LIMITS, 1.0)
     assert times_of(still, LINE) == pytest.approx(np.linspace(0.0, 1.0, 401))
+
+
+def test_a_path_that_stays_for_a_while_has_a_time_for_every_part_that_grows() -> None:
+    share = np.interp(np.linspace(0.0, 1.0, 401), [0.0, 0.3, 0.7, 1.0], [0.0, 0.5, 0.5, 1.0])
+    passed = times_of(drones(), np.column_stack([1.0 - share, share]))
+    assert (np.diff(passed) > 0.0).all()
+    assert passed[240] - passed[160] < 1e-3
 
 
 def test_a_piece_lasts_until_the_largest_share_of_a_limit_is_one() -> None:
