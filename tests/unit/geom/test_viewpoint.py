@@ -199,6 +199,14 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     assert pose[2] >= ROOM.floor
 
 
+def test_a_subject_without_a_place_comes_to_the_middle_of_the_frame() -> None:
+    subject = MAN._replace(size=0.3, azimuth=0.4, elevation=0.1)
+    pose, _ = viewpoint((subject,), LENS, ROOM, first_pose([subject], LENS, ROOM, 1.0))
+    offset = tuple(c - e for c, e in zip(MAN.centre, pose[:3], strict=True))
+    u, v, _ = view(pose[3], pose[4], LENS.hfov, LENS.aspect).project(offset)
+    assert (u, v) == (pytest.approx(0.0, abs=1e-3), pytest.approx(0.0, abs=1e-3))
+
+
 def test_a_camera_goes_no_farther_than_its_way() -> None:
     subjects = (
         MAN._replace(uv=(-0.3, 0.0), size=0.3),

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, inf
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from shotc.ir.drone import Optics
+from shotc.passes.verify import sharpness as module
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.sharpness import _stop_down, _time
 from shotc.spec.exposure import MOST_F
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
 
 
 def stop_down(needed: float) -> str:
@@ -43,3 +48,25 @@ def test_a_shutter_is_no_longer_than_asked_and_has_two_digits(seconds: float) ->
     step = 10 ** max(int(np.floor(np.log10(rate))) - 1, 0)
     assert rate % step == 0
     assert rate - step < 1 / seconds * (1 + 1e-9)
+
+
+def test_discs_are_claimed_in_millimetres_and_blur_in_pixels_where_they_are_largest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    values = SimpleNamespace(
+        disc=np.array([1e-5, 4e-5, 2e-5]),
+        motion=np.array([3.0, 1.0, 9.0]),
+        background=np.array([1.0, np.nan, 2.0]),
+    )
+    monkeypatch.setattr(module, "sharpness", lambda *_: values)
+    plan = orbit_plan().trajectory
+    mission = plan.keyframes.mission
+    drone = replace(mission.drones[0], optics=Optics(0.036, 1.4, 3e-5, 0.02, 3840))
+    view = SimpleNamespace(shot=SimpleNamespace(id="look"), target="tower", times=np.array([5.0, 6.0, 7.0]))
+    filmed: Any = SimpleNamespace(views=(view,))
+    found = list(module.sharp(JudgedFlight(mission, drone, plan.drones[0]), filmed))
+    assert [(c.constraint, c.unit, c.worst, c.limit, c.time, c.holds) for c in found] == [
+        ("tower blur disc", "mm", pytest.approx(0.04, rel=1e-9), pytest.approx(0.03), 6.0, False),
+        ("tower motion blur", "px", 9.0, 10.0, 7.0, True),
+        ("tower background blur", "px", inf, inf, 6.0, True),
+    ]

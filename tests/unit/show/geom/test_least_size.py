@@ -110,6 +110,10 @@ def test_who_stands_side_by_side_before_and_above_each_other_after_keeps_one_of_
     assert np.maximum(*way.T).min() >= 1.0 - 1e-9
     assert _length(way) == pytest.approx(2.0, rel=0.01)
     assert np.abs(way - 1.0).sum(axis=1).min() < 0.05
+    for rounder in list(least_size(before, after).ways())[1:]:
+        # Round corners go out to where they are free again, and no farther.
+        inner = rounder[len(rounder) // 4 : -len(rounder) // 4]
+        assert 1.0 - 1e-3 <= np.maximum(*inner.T).min() <= 1.01
 
 
 def test_pairs_far_apart_before_and_after_ask_for_nothing() -> None:
