@@ -15,6 +15,7 @@ from shotc.show.solvers.move import (
     PIECES,
     WORTH_RATIO,
     CommonMove,
+    family,
     fastest,
     least_piece,
     least_pieces,
@@ -99,3 +100,17 @@ def test_arcs_are_flown_by_the_easing() -> None:
     assert both == pytest.approx(0.5, abs=0.02)
     assert first < 0.4
     assert last > 0.6
+
+
+@pytest.mark.parametrize("easing", ["ease-in-out", "linear", "ease-in", "ease-out"])
+def test_every_profile_that_is_tried_goes_from_rest_to_rest_and_never_back(easing: Easing) -> None:
+    shapes, steps = family(20, easing)
+    assert (shapes[:, :3] == 0.0).all()
+    assert (shapes[:, -3:] == 1.0).all()
+    assert np.diff(shapes, axis=1).min() >= -1e-12
+    for order in (1, 2, 3):
+        most = np.abs(np.diff(shapes, order, axis=1)).max(axis=1)
+        assert steps[:, order - 1] == pytest.approx(most)
+    if easing in {"ease-in", "ease-out"}:
+        half = shapes[:, shapes.shape[1] // 2]
+        assert (half < 0.45).all() if easing == "ease-in" else (half > 0.55).all()

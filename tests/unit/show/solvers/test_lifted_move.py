@@ -5,16 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.ir.limits import Limits
 from shotc.show.solvers.lifted_move import (
     BEYOND_M,
     EXTENSIONS,
     STEPS,
     WIDTHS,
+    Course,
     Rise,
+    RisingPath,
     _concave,
     _enough,
     _farthest,
     _lines,
+    lifted,
     sampled,
 )
 
@@ -82,3 +86,19 @@ def test_a_height_is_enough_if_it_is_beyond_all_that_is_required_and_no_more() -
     assert (factor * sampled(points) - need)[need > 1e-3].min() == pytest.approx(BEYOND_M)
     assert _enough(points, np.zeros(len(need))) == 1.0
     assert _enough(0.0 * points, need) == np.inf
+
+
+@pytest.mark.parametrize("easing", ["linear"])
+def test_a_fleet_rises_over_a_wall_whatever_its_easing(easing: str) -> None:
+    """A move at one speed has no profile of few pieces: it has more."""
+    starts = np.array([[0.0, 0.0, 10.0], [0.0, 3.0, 10.0]])
+    ends = (starts, starts + np.array([FAR_M, 0.0, 0.0]))
+    path = RisingPath(np.column_stack([1.0 - SHARE, SHARE]), WALL)
+    limits = Limits(5.0, 2.5, 2.0, 2.5, 8.0, 1.0, 1.0)
+    move = lifted(ends, Course(np.zeros(3)), [path], (limits, 1.0, easing))  # type: ignore[arg-type]
+    assert move is not None
+    assert WALL_M <= move.height < 1.3 * WALL_M
+    share, height = sampled(move.ctrl[:, 1]), sampled(move.lift)
+    assert height[(share > 0.5) & (share < 0.6)].min() >= WALL_M
+    assert move.duration == pytest.approx(move.piece * move.pieces)
+    assert move.duration > 100.0 / 5.0
