@@ -33,7 +33,7 @@ KILLED_SHARE = 0.9
 def main() -> None:
     """Draw, try and report."""
     options = _options()
-    drawn = draw(every(options.paths), options.number, options.seed)
+    drawn = draw(every(options.paths), options.number, options.seed)[options.skip :]
     print(f"{len(drawn)} mutants of {' '.join(options.paths)}, seed {options.seed}", flush=True)
     covered = recorded(OUT / "record", PATHS, ROOT, options)
     trials = list(tries(drawn, covered, options))
@@ -46,6 +46,9 @@ def main() -> None:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m tests.experiments.mutants", description=__doc__)
     parser.add_argument("--number", type=int, default=1000, help="how many mutants (1000)")
+    parser.add_argument(
+        "--skip", type=int, default=0, help="how many of these to leave out, from the first (0)"
+    )
     parser.add_argument("--seed", type=int, default=0, help="which of them (0)")
     parser.add_argument("--jobs", type=int, default=2, help="how many at once (2)")
     parser.add_argument("--longest", type=float, default=120.0, help="CPU seconds of tests per mutant (120)")

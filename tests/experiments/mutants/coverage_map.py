@@ -79,12 +79,13 @@ class CoverageMap:
     def tests(self, mutant: Mutant) -> list[str]:
         """Return the tests that run the statement of a mutant, near quick ones that run little else first."""
         contexts = self._contexts(mutant)
+        running = self._all_asking(contexts)
         if IMPORT in contexts:
             contexts.update(*self.lines[mutant.path].values())
 
         def lateness(test: str) -> tuple[float, str]:
             close = (1 + self.breadth[test]) * (self.cost(test) + INSTANT_S)
-            return close * _distance(mutant.path, test), test
+            return close * _distance(mutant.path, test) * (1.0 if test in running else ELSEWHERE), test
 
         asking = self._all_asking(contexts)
         return sorted((context for context in asking if context in self.seconds), key=lateness)

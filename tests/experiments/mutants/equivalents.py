@@ -309,4 +309,29 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "12  ->  13",
         "a spline of one piece more flies the same wave; no number of pieces is promised",
     ),
+    Equivalent(
+        "shotc/geom/proof.py",
+        "break",
+        "break  ->  continue",
+        "without halving the rounds that are left find the same bound",
+        3,
+    ),
+    Equivalent(
+        "shotc/solvers/headings/virtual.py",
+        "NEAREST, FARTHEST = 0.5, 4.0  # radii of inner keyframes",
+        "4.0  ->  5.0",
+        "a range in which a radius is searched for; the heading does not depend on the scale, and is checked",
+    ),
+    Equivalent(
+        "shotc/solvers/cone_rows.py",
+        "settings.max_threads = 1",
+        "1  ->  2",
+        "the factorisation that is used has one thread, however many are allowed",
+    ),
+    Equivalent(
+        "shotc/show/solvers/own_heights.py",
+        "none = np.zeros(len(x[0][0]))",
+        "0  ->  1",
+        "all columns and weights of a derivative have as many rows",
+    ),
 )

@@ -343,3 +343,16 @@ def test_a_piece_that_is_closed_early_counts_in_the_bound() -> None:
 
 def negative(curve: Piecewise) -> Piecewise:
     return Piecewise(curve.breaks, -curve.ctrl)
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize(
+    ("off", "met"), [(-2.1, False), (-1.9, True), (0.0, True), (1.9, True), (2.1, False)]
+)
+def test_boxes_overlap_if_they_do_along_every_axis(axis: int, off: float, met: bool) -> None:
+    solid = Prism(((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)), -1.0, 1.0)
+    ctrl = np.random.default_rng(1).uniform(-1.0, 1.0, (1, 6, 3))
+    ctrl[0, :2] = [[-1.0] * 3, [1.0] * 3]
+    ctrl[:, :, axis] += off
+    assert proof._box_overlap(ctrl, solid).tolist() == [met]
+    assert proof.box_gap(ctrl, solid) == pytest.approx([max(0.0, abs(off) - 2.0)])

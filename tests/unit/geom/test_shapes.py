@@ -80,6 +80,15 @@ def test_margins_are_those_of_the_point_nearest_to_the_edge(
     assert frustum_margins(camera, offset, shape) == pytest.approx(brute, abs=1e-4)
 
 
+@pytest.mark.parametrize("around", [0.2, 1.9, 4.0])
+@pytest.mark.parametrize("above", [-0.6, 0.0, 0.9])
+def test_margins_of_a_turned_box_are_those_of_its_nearest_corner(around: float, above: float) -> None:
+    shape = BoxShape(6.0, 2.0, 3.0, (0.6, 0.8))
+    camera, offset = seen_from((20.0, around, above, 0.2, -0.1))
+    brute = np.min(frustum_margins(camera, tuple((surface(shape) + offset).T)), axis=1)
+    assert frustum_margins(camera, offset, shape) == pytest.approx(brute, abs=1e-9)
+
+
 @pytest.mark.slow
 @given(boxes, looks)
 def test_the_contour_of_a_box_is_the_hull_of_its_eight_corners(

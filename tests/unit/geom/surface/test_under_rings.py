@@ -28,6 +28,20 @@ def test_what_is_in_a_ring_is_what_the_ring_winds_around(seed):
     assert (in_ring(ring, points) == wound).all()
 
 
+def test_on_a_slope_a_corner_is_the_lowest_and_over_a_valley_a_side():
+    x, y = np.meshgrid(np.arange(9.0), np.arange(9.0), indexing="ij")
+    ring = np.array([[2.3, 1.7], [6.1, 2.2], [5.2, 6.4], [1.4, 5.3]])
+
+    def lowest(heights: np.ndarray) -> float:
+        shape = grid(heights, 1.0)
+        return float(lowest_under(ground_of(shape.corners, shape.faces), [ring])[0])
+
+    assert lowest(0.5 * x - 0.25 * y) == pytest.approx((0.5 * ring[:, 0] - 0.25 * ring[:, 1]).min())
+    # Only one corner is beyond the floor of each valley, and two sides cross it.
+    assert lowest(np.abs(x - 6.0) + 3.0) == pytest.approx(3.0)
+    assert lowest(np.abs(y - 6.0) + 3.0) == pytest.approx(3.0)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_it_is_the_least_of_all_places_in_the_ring(seed):

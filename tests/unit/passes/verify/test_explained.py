@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from math import hypot, inf
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,6 +35,7 @@ from tests.support.records import replace
 from tests.support.resealed_plans import Document, resealed
 from tests.support.scenes import house
 
+shots = import_module("shotc.passes.verify.shots")
 EAST = ExpectedPlaces(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
 
 
@@ -248,6 +252,31 @@ def test_a_shot_may_be_as_far_off_as_is_reported_and_no_farther_than_is_explaine
     assert limits[:2] == [1.0, 3.0]
     # Half of the distance to the runner for the picture, and a little for the drone's limits, at 2 m/s.
     assert 1.0 + 0.5 * hypot(8.0, 4.0 - 0.9) < limits[2] == limits[3] < 1.0 + 0.5 * hypot(8.0, 4.0) + 3.0
+
+
+@pytest.mark.parametrize(
+    ("reported", "allowed"), [((), 1.0), ((0.5, 2.0), 3.0), ((2.0, 0.5), 3.0), ((7.0,), 8.0), ((1e3,), 8.0)]
+)
+def test_a_metre_beyond_what_is_reported_and_explained_is_allowed(
+    reported: tuple[float, ...], allowed: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Explained are 2 m by a zone, 4 m by the picture and 1 m by the limits."""
+    monkeypatch.setattr(shots, "in_the_way", lambda *_, **__: {"zone mast": 2.0})
+    monkeypatch.setattr(shots, "farthest", lambda *_: 8.0)
+    monkeypatch.setattr(shots, "for_the_picture", lambda _, far, **__: far / 2)
+    monkeypatch.setattr(shots, "for_its_limits", lambda *_: 1.0)
+    told = [PathDeviation("watch", distance, 0.0, "the drone's limits") for distance in reported]
+    told.append(PathDeviation("another", 50.0, 0.0, "the drone's limits"))
+    ir: Any = SimpleNamespace(deviations=told)
+    for placed, course, most in (
+        (False, EAST, allowed),
+        (True, EAST, allowed),
+        (True, EAST._replace(places=0.0 * EAST.places), min(allowed, 7.0)),
+    ):
+        shot: Any = SimpleNamespace(
+            id="watch", subjects=(), smoothing=0.5, ideal=SimpleNamespace(placed=placed)
+        )
+        assert shots._allowed(flight(), ir, shot, course) == pytest.approx(most)
 
 
 def plate(x: tuple[float, float], z: float) -> np.ndarray:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.show import PyroCue
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.fleets import pyro_advice
 from tests.support.few import examples
 from tests.support.show_plans import display, fleet, flight, mission
 from tests.support.standing_worlds import SIDE, STEP, from_box, height_over, house, ridge, terrain
@@ -179,3 +182,22 @@ def test_what_burns_on_the_ground_is_told_when_it_may_burn() -> None:
     cue = PyroCue(2.0, (1,), "fountain", 5.0, 50.0, 1.0, 0.0, 0.0, ("shots", 0))
     _, (fault,) = judged(one_cue(cue, ((8.0, 0.0, 0.0),)))
     assert fault.help == "have it burn in the air: `at` between 9.00 s and 33.00 s"
+
+
+def test_a_product_is_as_far_as_the_viewpoint_the_ground_and_other_drones_the_nearest_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    breaks = np.linspace(0.0, 4.0, 5)
+    coef = np.tile(np.array([[3.0, 4.0, 20.0]]), (7, 1))[None] + np.zeros((2, 1, 1))
+    monkeypatch.setattr(pyro_advice, "sampled_distances", lambda _, p: np.full(len(p), 18.0))
+    firing: Any = SimpleNamespace(
+        flight=SimpleNamespace(track=SimpleNamespace(breaks=breaks, coef=coef)),
+        times=np.array([0.0, 1.0, 2.0]),
+        apart=np.array([[50.0, 50.0, 50.0], [50.0, 2.0, 50.0]]),
+        display=SimpleNamespace(viewpoint=(3.0, -8.0, 15.0)),
+    )
+    during = np.array([True, True, False])
+    found = pyro_advice._Firing._least(firing, [0, 1], during)
+    assert found == pytest.approx(np.array([[13.0, 13.0], [13.0, 2.0]]))
+    firing.display.viewpoint = None
+    assert pyro_advice._Firing._least(firing, [1], during) == pytest.approx(np.array([[18.0, 2.0]]))

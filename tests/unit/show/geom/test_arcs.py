@@ -125,3 +125,10 @@ def test_splines_are_sampled_where_they_are(seed: int) -> None:
     assert Gaps(1.0, 1.3).least_share(ctrl) == pytest.approx(
         np.hypot(*(np.moveaxis(spline(np.linspace(0.0, 6.0, 145)), -1, 0) * [[1.0], [1.3]])).min()
     )
+
+
+def test_a_point_after_a_wide_step_is_pushed_out_no_farther_than_the_corner_of_a_square() -> None:
+    ctrl = np.array([[1.0, 0.0], [0.05, 1.0], [0.0, 1.0]])
+    pushed = Gaps(1.0, 1.0).pushed_out(ctrl)
+    assert (pushed[[0, 2]] == ctrl[[0, 2]]).all()
+    assert 1.0 <= hypot(*pushed[1]) <= sqrt(2.0) + 1e-9
