@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import re
 import signal
 from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -11,13 +15,16 @@ import pytest
 from shotc.diag.registry import has_errors
 from shotc.stream.session import unplaced
 from tests.cli.conftest import Run
+from tests.support.compiled import compiled_text
 from tests.support.records import replace
 from tests.support.show_plans import plan as show_plan
 from tests.support.stream.autopilot import PX4_HOLD, Script
 from tests.support.stream.plans import hop_plan, with_target
-from tests.support.stream.worlds import EPOCH, World, free_port
+from tests.support.stream.worlds import EPOCH, World, free_port, send_json
 
 pytestmark = pytest.mark.slow
+
+PAGE = (Path(__file__).parents[2] / "shotc" / "docs" / "flying.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture
@@ -38,6 +45,31 @@ def flying(monkeypatch, tmp_path):
     yield made
     for world in worlds:
         world.stack.close()
+
+
+@pytest.mark.long
+def test_the_commands_of_the_guide_fly_its_mission(run: Run, flying) -> None:
+    (text,) = re.findall(r"```yaml\n(# walker.yaml\n.*?)```", PAGE, re.DOTALL)
+    lines = dict.fromkeys(re.findall(r"^shotc (stream out/walker [^#\n]*)", PAGE, re.MULTILINE))
+    commands = [line.split() for line in lines]
+    assert [len(words) for words in commands] == [4, 7, 5]  # a dry run, a flight with a target, one without
+    plan = compiled_text(text, "none").plan
+    walker = plan.trajectory.keyframes.mission.target("walker")
+    for command in commands:
+        world, to = flying(plan, targets=("walker",))
+        said, flies = world.targets["walker"], "--arm" in command
+        began = world.clock.time
+        for k in range(160 if flies else 0):
+            x, y, _ = walker.at(0.5 * k)
+            send = partial(send_json, said, json.dumps({"x": x, "y": y + 0.5}))
+            world.clock.events.append((began + 0.5 * k, send))
+        ports = {"udp:14540": to[1].partition("=")[2], "walker=udp:14600": f"walker={said}"}
+        done = run(*(ports.get(word, word) for word in command))
+        assert done.code == 0, done.err
+        (autopilot,) = world.autopilots.values()
+        assert ("landed" in done.out) is flies
+        assert (len(autopilot.setpoints) > 2000) is flies
+        assert [on for _, on in autopilot.recording] == ([True, False] if flies else [])
 
 
 def test_a_dry_run_says_what_it_would_do_and_moves_nothing(run: Run, flying) -> None:

@@ -25,9 +25,9 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.document import FLIGHT, json_text
 from shotc.simulation.fleets.near import ClosestPair
 from shotc.simulation.fleets.rehearse import FleetRehearsal
-from shotc.simulation.guidance import Replans
 from shotc.simulation.judge import TargetFraming, TrackingError
 from shotc.simulation.rehearsal import rehearse
+from shotc.simulation.replans import Replans
 from shotc.simulation.runs import simulated
 from shotc.simulation.sensors import Detector, Gps
 from shotc.simulation.shows import FleetCourse, FleetPair
