@@ -36,6 +36,12 @@ such a pair is judged by it in the next round.
 """
 
 
+NEARLY_APART = 0.99
+"""Distance, in units of the separation, above which a motion is nearly free. Two drones that lack a share of
+the separation in the middle between two times are kept apart by that share more at both times.
+"""
+
+
 class CylinderPlanes(NamedTuple):
     """Half-planes normal . (a, b) >= 1 at times of a motion.
 
@@ -56,22 +62,27 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
 
     before, after : positions, shape (n, 3), heights scaled, in units of the separation
     scalars : a, b and those of the heights at rising times, shape (2 T + 1, 4). The even rows are the times
-        of the half-planes. In the odd row between two of them it is decided whether a pair is apart across
-        or upright, for both: a pair that changed between them would be apart in neither.
+        of the half-planes. Between two of them a pair is apart either across or upright, at both: a pair that
+        changed in between would be apart in neither. It is the one of which the smaller distance at the two
+        times is larger: a motion that keeps the half-planes of another keeps those of its own, too. Where the
+        pair is a little too near in the odd row, both half-planes are moved outwards by what it lacks.
     """
     motion = _Motion(before, after, scalars)
     found: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
     least = REACH_RATIO
     for middle in range(1, len(scalars), 2):
         gaps = motion.gaps(middle)
-        across, along = gaps.distances(scalars[middle])
-        flat = across >= along
+        across, along = np.stack(
+            [gaps.distances(scalars[k]) for k in (middle - 1, middle, middle + 1)], axis=1
+        )
         least = min(least, float(np.maximum(across, along).min(initial=REACH_RATIO)))
+        flat = across[::2].min(axis=0) >= along[::2].min(axis=0)
+        apart = np.where(flat, across[1], along[1])
+        share = np.where(apart > NEARLY_APART, np.minimum(apart, 1.0), 1.0)[:, None]
         for time in (middle - 1, middle + 1):
-            row = scalars[time]
-            least = min(least, float(np.maximum(*gaps.distances(row)).min(initial=REACH_RATIO)))
-            found[time // 2][0].append(gaps.of(flat).normals(row, slice(0, 2)))
-            found[time // 2][1].append(gaps.of(~flat).normals(row, slice(2, 3)))
+            normals = found[time // 2]
+            normals[0].append(share[flat] * gaps.of(flat).normals(scalars[time], slice(0, 2)))
+            normals[1].append(share[~flat] * gaps.of(~flat).normals(scalars[time], slice(2, 3)))
     rows = [
         (time, upright, _needed(np.concatenate(both[upright])))
         for time, both in enumerate(found)

@@ -54,15 +54,17 @@ MOST_SCALAR = 1.1
 """Largest control point of a scalar. Above 1 a scalar passes 1 before it slows down. Without a bound, one
 that has time to spare would grow further.
 """
-RAMPS = Ramps(0.3, 0.3, 0.6, 0.6)
+RAMPS = Ramps(0.5, 0.5, 0.5, 0.5)
 """The profile of each scalar on the first motion."""
 MOST_ROUNDS = 7
 WORTH_SHARE = 0.005
 """Least gain of a round, as a share of the duration; after a smaller one the search ends."""
 NEAR_SHARE = 0.8
 """Share of its bound at which a limit is part of the first programme."""
-LACK_SHARE = 1e-4
-"""Share of the separation that drones may lack at the times at which they are kept apart."""
+LACK_SHARE = 2.5e-4
+"""Share of the separation that drones may lack in the middle between two times: half of the margin with which
+moves are requested.
+"""
 TOLERANCE = 1e-7
 
 BEYOND_COST = 1.0
@@ -107,10 +109,11 @@ def own_heights(task: OwnHeightsTask, pivot: Array) -> ArcMove | None:
         piece = float(drones.least_pieces(ctrl))
         # The first motions may leave the heights.
         free = planes.least >= 1.0 - LACK_SHARE and _beyond(task, pivot, ctrl) <= BEYOND_M
-        if number and free and piece < best:
-            gain, best, found = 1.0 - piece / best, piece, ctrl
-            if gain < WORTH_SHARE:
-                break
+        gain = 1.0 - piece / best
+        if number and free and gain > 0.0:
+            best, found = piece, ctrl
+        if gain < WORTH_SHARE:
+            break
         busy |= _busiest(drones, ctrl)
         programme = _Programme(drones.of_rows(sorted(busy)), piece)
         programme.keep_apart(planes)

@@ -65,6 +65,26 @@ def test_a_motion_on_which_they_collide_asks_for_its_larger_distance() -> None:
     assert rows(planes, 1) == {(True, 0.0, 1.2)}
 
 
+@pytest.mark.parametrize(("middle", "share"), [(0.995, 0.995), (1.0, 1.0), (1.2, 1.0), (0.7, 1.0)])
+def test_who_is_a_little_too_near_between_two_times_is_farther_apart_at_both(
+    middle: float, share: float
+) -> None:
+    # Two drones side by side that stay so: at a + b from each other.
+    apart, between = [0.6, 0.4, 0.5, 0.5], [0.6, middle - 0.6, 0.5, 0.5]
+    planes = cylinder_planes(BESIDE, BESIDE, np.array([apart, between, apart]))
+    for time in (0, 1):
+        assert rows(planes, time) == {(False, share, share)}  # a + b >= 1 / share
+    assert planes.least == pytest.approx(min(middle, 1.0))
+
+
+def test_a_pair_stays_apart_as_it_is_at_both_times_whatever_it_is_between() -> None:
+    # Apart upright at both times, and across by a little more in the middle alone.
+    pair = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 1.0]])
+    at_both, between = [0.3, 0.3, 0.5, 0.5], [0.6, 0.6, 0.5, 0.5]
+    planes = cylinder_planes(pair, pair, np.array([at_both, between, at_both]))
+    assert rows(planes, 0) == rows(planes, 1) == {(True, 1.0, 1.0)}
+
+
 def test_far_pairs_ask_for_nothing() -> None:
     planes = cylinder_planes(9.0 * BESIDE, 9.0 * BESIDE, np.array([[0.5, 0.5, 0.5, 0.5]] * 3))
     assert len(planes.at) == 0
