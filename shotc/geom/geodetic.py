@@ -50,7 +50,7 @@ def onto_plane(origin: Vec3) -> Callable[[float, float], Vec2]:
     """
     base = _earth_centred(origin)
     lat, lon = radians(origin[0]), radians(origin[1])
-    east = (-sin(lon), cos(lon), 0.0)
+    east = (-sin(lon), cos(lon))  # level on every meridian
     north = (-sin(lat) * cos(lon), -sin(lat) * sin(lon), cos(lat))
     up = (cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat))
     height = origin[2]

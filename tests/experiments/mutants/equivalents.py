@@ -326,12 +326,25 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "shotc/solvers/cone_rows.py",
         "settings.max_threads = 1",
         "1  ->  2",
-        "the factorisation that is used has one thread, however many are allowed",
+        "threads share the work of a factorisation; how many may do so changes no result",
     ),
     Equivalent(
         "shotc/show/solvers/own_heights.py",
         "none = np.zeros(len(x[0][0]))",
         "0  ->  1",
         "all columns and weights of a derivative have as many rows",
+    ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        "if disc > 0.0 and without_size(corners).all():",
+        "0.0  ->  1.0",
+        "points have no plane: the test by planes, which this condition saves, keeps them all as well",
+    ),
+    Equivalent(
+        "shotc/geom/surface/sight.py",
+        "normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])",
+        "0  ->  1",
+        "the product of any two sides is the same normal",
+        1,
     ),
 )
