@@ -25,11 +25,12 @@ BLIND_S = 2.0
 def held_intervals(film: PlanSamples, lost: tuple[Interval, ...]) -> tuple[Interval, ...]:
     """Return the intervals in which a drone brakes and holds, seconds.
 
-    A drone that lands over its pad goes on landing.
+    A drone that takes off or lands over its pad goes on.
 
     lost : the intervals in which it has no positions
     """
-    return tuple((start + BLIND_S, end) for start, end in lost if start + BLIND_S < min(end, film.lands))
+    begins = ((max(start + BLIND_S, film.above_pad), end) for start, end in lost)
+    return tuple((start, end) for start, end in begins if start < min(end, film.lands))
 
 
 class _Braking(NamedTuple):

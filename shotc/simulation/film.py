@@ -64,6 +64,12 @@ class PlanSamples:
         return np.asarray(self.position[[self.step(time) for time in times.tolist()]])
 
     @property
+    def above_pad(self) -> float:
+        """The time at which the drone has taken off over its pad, or the start of its flight, seconds."""
+        rises = [phase.end for phase in self.track.phases if phase.name == "takeoff"]
+        return max(rises, default=float(self.times[0]))
+
+    @property
     def lands(self) -> float:
         """The time at which the drone begins to land over its pad, or the end of its flight, seconds."""
         landings = [phase.start for phase in self.track.phases if phase.name == "land"]

@@ -27,6 +27,9 @@ from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
 from shotc.simulation.way_back import ReturnLack
 from shotc.simulation.world import World, at_times
 
+IN_AIR_M = 0.5
+"""Height above its pad at the end of its plan, above which a drone has not landed, metres."""
+
 SIGHT_S = 0.2
 """Seconds between the samples at which occlusion is judged."""
 
@@ -70,7 +73,7 @@ class TrackingError:
     misled : the largest stray that is mainly its receiver's error
     unplaced : the largest error of its own position while it has none by satellites
     straight : what its straight ways back after outages lack; None without them
-    landed : horizontal distance from its pad at the end, metres
+    landed : horizontal distance from its pad at the end, metres; None if it is in the air then
     """
 
     drone: str
@@ -85,7 +88,7 @@ class TrackingError:
     misled: Peak = field(default_factory=Peak)
     unplaced: Peak = field(default_factory=Peak)
     straight: ReturnLack | None = None
-    landed: float = 0.0
+    landed: float | None = None
 
     @property
     def nearest(self) -> ClosestApproach | None:
@@ -301,9 +304,10 @@ def _spoiled(
     return float(seen.mean())
 
 
-def _landed(flown: DroneRuns, track: DroneTrajectory, run: int) -> float:
-    """Return the horizontal distance from the end of the plan, metres."""
-    return float(np.linalg.norm(flown.position[-1, run, :2] - track.curve(track.curve.end)[:2]))
+def _landed(flown: DroneRuns, track: DroneTrajectory, run: int) -> float | None:
+    """Return the horizontal distance from the end of the plan, metres; None above it."""
+    off = flown.position[-1, run] - track.curve(track.curve.end)[:3]
+    return None if off[2] > IN_AIR_M else float(np.linalg.norm(off[:2]))
 
 
 def _course(

@@ -223,8 +223,14 @@ def _spoiled(done: Rehearsed) -> Iterator[str]:
 def _landed(done: Rehearsed) -> Iterator[str]:
     """Yield a remark on how far off its pad each drone lands."""
     for i, first in enumerate(done.runs[0].courses):
-        off, run = max((run.courses[i].landed, run.number) for run in done.runs)
-        yield f"{first.drone}: lands up to {at_least(off)} m off its pad, in run {run}"
+        every = [(run.courses[i].landed, run.number) for run in done.runs]
+        landed = [(off, run) for off, run in every if off is not None]
+        if landed:
+            off, run = max(landed)
+            yield f"{first.drone}: lands up to {at_least(off)} m off its pad, in run {run}"
+        if len(landed) < len(every):
+            lacks = len(every) - len(landed)
+            yield f"{first.drone}: is still in the air when its plan ends, in {lacks} of {len(every)} runs"
 
 
 def _planned_anew(done: Rehearsed) -> Iterator[str]:

@@ -128,12 +128,15 @@ def test_a_drone_without_positions_holds_and_comes_back_and_it_is_a_warning(loop
     assert "cam" in world.conditions.outages[0]
 
 
-def test_an_outage_while_it_lands_or_shorter_than_two_seconds_stops_nobody() -> None:
+def test_an_outage_over_its_pad_or_shorter_than_two_seconds_stops_nobody() -> None:
     done = flown(RehearsalOptions())
     film = film_of(done.mission, done.ir.drones[0])
     lands = next(phase.start for phase in film.track.phases if phase.name == "land")
     assert held_intervals(film, ((10.0, 12.0), (lands - 1.0, lands + 5.0))) == ()
     assert held_intervals(film, ((10.0, 12.5),)) == ((12.0, 12.5),)
+    risen = next(phase.end for phase in film.track.phases if phase.name == "takeoff")
+    assert held_intervals(film, ((0.0, risen - 0.1),)) == ()
+    assert held_intervals(film, ((0.0, risen + 1.0),)) == ((risen, risen + 1.0),)
 
 
 @pytest.mark.long
