@@ -347,4 +347,16 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "the product of any two sides is the same normal",
         1,
     ),
+    Equivalent(
+        "shotc/geom/solid_arrays/rings.py",
+        "return np.asarray(radius / np.cos(np.pi / sides) * np.stack([np.cos(turn), np.sin(turn)], axis=-1))",
+        "-  ->  nothing",
+        "angles have one axis, so that the last one is the second",
+    ),
+    Equivalent(
+        "shotc/show/solvers/own_heights.py",
+        "constant, terms = self._power(most, order, len(axes[0][0][0]))",
+        "0  ->  1",
+        "all columns and weights of a derivative have as many rows",
+    ),
 )

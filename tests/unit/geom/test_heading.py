@@ -99,3 +99,15 @@ def test_the_bound_holds_where_a_heading_leaves_the_course_of_a_curve(faster: fl
     upper, _ = _bounds(_Motion(velocity, velocity.derivative(), turning, turning.derivative()))
     most = abs(faster) * (2.0 * half) ** 2
     assert most - 1e-6 <= upper[0] <= 1.6 * most
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_bound_holds_where_a_course_turns_ever_faster_away_from_a_heading(side: float) -> None:
+    """On y = t^3 / 10 the course is atan(0.3 t^2); the heading stays East."""
+    cube = side * 0.1 * np.array([0.0, 0.0, 0.0, 0.1, 0.4, 1.0])
+    ctrl = np.column_stack([np.linspace(0.0, 1.0, 6), cube, np.zeros(6)])[None]
+    flown = Pieces(np.zeros(1), np.ones(1), ctrl)
+    velocity, heading = flown.channels(0, 1).derivative(), flown.channels(2)
+    upper, middle = _bounds(_Motion(velocity, velocity.derivative(), heading, heading.derivative()))
+    assert np.arctan(0.3) <= upper[0] <= 1.5 * np.arctan(0.3)
+    assert middle == pytest.approx([np.arctan(0.075)])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import centres, places
-from shotc.geom.nearest_pair import GAP_M
+from shotc.geom.nearest_pair import GAP_M, joined
 from shotc.geom.separation import closest, closest_between, first_nearer
 from shotc.ir.show import Apart
 
@@ -198,3 +198,8 @@ def test_pairs_are_compared_only_on_pieces_on_which_both_count() -> None:
     assert found([True, False, False], nobody, [False, False, True])[0] == np.inf
     timed = closest(breaks, coef, BALL, np.array([nobody, nobody, pair]).T)
     assert 2.0 <= timed.time <= 3.0
+
+
+def test_the_union_of_no_bags_has_no_pair() -> None:
+    none = joined([])
+    assert [array.shape for array in (none.pairs, none.ends, none.ctrl)] == [(0, 2), (0, 2), (0, 4, 3)]

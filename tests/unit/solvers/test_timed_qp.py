@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from shotc.solvers.conic import Status
-from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
+from shotc.solvers.timed_qp import PathLimits, TimeLaw, _Model, time_law
 
 CELLS, LENGTH, TIME = 60, 30.0, 12.0
 KNOTS = np.linspace(4.0, 4.0 + TIME, CELLS + 1)
@@ -73,3 +76,24 @@ def test_it_goes_through_places_between() -> None:
     assert law.v[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-6)
     assert law.a[[0, -1]] == pytest.approx([0.0, 0.0], abs=1e-6)
     assert (law.v >= -1e-6).all()
+
+
+@pytest.mark.parametrize("side", [slice(None, -1), slice(1, None)])
+def test_the_rows_of_a_jerk_are_its_tangent_at_the_last_law(side: slice) -> None:
+    """Beside the last law the rows miss q' j + 3 q'' v a + q''' v^3 by the square of how far it is."""
+    rng = np.random.default_rng(3)
+    nodes, size, time = 5, 2.0, 3.0
+    v, a, jerk = rng.uniform(1.0, 2.0, nodes), rng.normal(size=nodes), rng.normal(size=nodes - 1)
+    d1, d2, d3 = rng.normal(size=(3, nodes - 1, 2))
+    kept: list[Any] = []
+    model: Any = SimpleNamespace(nodes=nodes, size=size, time=time, norm=kept.extend)
+    _Model._jerk(model, side, d1, d2, d3, SimpleNamespace(v=v, a=a))  # type: ignore[arg-type]
+    off_v, off_a = rng.normal(size=(2, nodes))
+    for step in (0.0, 1e-4):
+        near_v, near_a = v + step * off_v, a + step * off_a
+        units = [np.zeros(nodes), near_v * time / size, near_a * time**2 / size, jerk * time**3 / size]
+        x = np.concatenate(units)
+        exact = d1.T * jerk + 3 * d2.T * (near_v * near_a)[side] + d3.T * near_v[side] ** 3
+        for (terms, constant), value in zip(kept, exact, strict=True):
+            found = constant + sum(coefficient * x[columns] for columns, coefficient in terms)
+            assert found == pytest.approx(value, abs=1e-12 + 100.0 * step**2)

@@ -93,6 +93,7 @@ def test_far_pairs_ask_for_nothing() -> None:
 
 def test_the_least_of_the_formations_is_at_most_one() -> None:
     assert least_before_and_after(BESIDE, ABOVE) == 1.0
+    assert least_before_and_after(1.5 * BESIDE, 1.5 * ABOVE) == 1.0
     assert least_before_and_after(0.9 * BESIDE, ABOVE) == pytest.approx(0.9)
     assert least_before_and_after(BESIDE, 0.7 * ABOVE) == pytest.approx(0.84)
 

@@ -108,6 +108,7 @@ def test_who_stands_side_by_side_before_and_above_each_other_after_keeps_one_of_
     after = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 9.0, 0.0], [1.0, 9.0, 0.0]])
     way = next(least_size(before, after).ways())
     assert np.maximum(*way.T).min() >= 1.0 - 1e-9
+    assert least_size(before, after).most == pytest.approx(2.0, rel=0.02)
     assert _length(way) == pytest.approx(2.0, rel=0.01)
     assert np.abs(way - 1.0).sum(axis=1).min() < 0.05
     for rounder in list(least_size(before, after).ways())[1:]:

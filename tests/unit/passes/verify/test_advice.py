@@ -1,0 +1,44 @@
+"""How much longer a shot is to take for a value to fall to its limit."""
+
+from __future__ import annotations
+
+import pytest
+
+from shotc.ir.phases import Phase
+from shotc.passes.verify.advice import Rule, advice
+from shotc.passes.verify.report import RULES
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
+
+PHASE = Phase("shot", "look", 10.0, 30.0)
+
+
+@pytest.mark.parametrize(
+    ("power", "ratio", "seconds"),
+    [(1.0, 1.5, "30.0"), (1 / 2, 4.0, "40.0"), (1 / 3, 8.0, "40.0"), (1.0, 1.0 + 1e-9, "20.1")],
+)
+def test_a_derivative_falls_by_a_power_of_the_time(power: float, ratio: float, seconds: str) -> None:
+    plan = orbit_plan()
+    speed = next(c for c in plan.certificate if c.constraint == "speed")
+    broken = replace(speed, worst=ratio * speed.limit, holds=False)
+    told = advice(plan.trajectory.keyframes.mission, broken, Rule("V001", power), PHASE)
+    assert f"give shot `look` {float(seconds):g} s or more" in told.replace(".0 s", " s")
+    assert "then plan again" in told
+
+
+def test_what_no_time_helps_is_given_none() -> None:
+    plan = orbit_plan()
+    speed = next(c for c in plan.certificate if c.constraint == "speed")
+    broken = replace(speed, worst=2.0 * speed.limit, holds=False)
+    mission = plan.trajectory.keyframes.mission
+    assert "give" not in advice(mission, broken, Rule("V005"), PHASE)
+    assert "give" not in advice(mission, broken, Rule("V001", 1.0), None)
+    assert advice(mission, broken, Rule("V015", help="as told"), PHASE) == "as told"
+
+
+def test_every_rate_falls_with_the_time_and_every_higher_derivative_with_its_power() -> None:
+    orders = {"speed": 1, "climb": 1, "descent": 1, "rate": 1, "acceleration": 2, "jerk": 3}
+    found = {name: rule.power for name, rule in RULES.items() if name.split()[-1] in orders}
+    assert len(found) > 10
+    assert found == {name: pytest.approx(1 / orders[name.split()[-1]]) for name in found}
+    assert not any(rule.power for name, rule in RULES.items() if name not in found)
