@@ -359,4 +359,23 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "0  ->  1",
         "all columns and weights of a derivative have as many rows",
     ),
+    Equivalent(
+        "shotc/passes/verify/sight.py",
+        "least = float(sight.out(times[:1])[0])",
+        "1  ->  2",
+        "the first of two values is that of the first time",
+    ),
+    Equivalent(
+        "shotc/passes/verify/sight.py",
+        "MOST_HALVINGS = 40",
+        "40  ->  41",
+        "after 40 halvings an interval is shorter than a time can be told",
+    ),
+    Equivalent(
+        "shotc/show/geom/columns.py",
+        "size = np.maximum(high - low, 1e-9 * max(1.0, float((high - low).max())))",
+        "-  ->  +",
+        "it keeps a division from zero, and any tiny number does",
+        1,
+    ),
 )
