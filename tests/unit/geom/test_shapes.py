@@ -153,7 +153,7 @@ def test_length_lies_along_the_course_where_the_depth_of_a_zone_does() -> None:
     assert (solid.bottom, solid.top) == (zone.bottom, zone.top)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(boxes | cylinders, boxes | cylinders, offsets)
 def test_bodies_touch_where_no_direction_parts_them(
     a: BoxShape | CylinderShape, b: BoxShape | CylinderShape, offset: tuple[float, float, float]
