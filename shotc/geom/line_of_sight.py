@@ -19,8 +19,8 @@ def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
     span = _level(solid, a, b)
     if span is None:
         return False
-    p, q = (tuple(s + t * (e - s) for s, e in zip(a[:2], b[:2], strict=True)) for t in span)
-    first, last = (p[0], p[1]), (q[0], q[1])
+    (x, y), (east, north) = a[:2], (b[0] - a[0], b[1] - a[1])
+    first, last = (x + span[0] * east, y + span[0] * north), (x + span[1] * east, y + span[1] * north)
     if isinstance(solid, Cylinder):
         return dist(solid.centre, closest_on_segment(first, last, solid.centre)) <= solid.radius
     return _meets(solid, first, last)

@@ -8,7 +8,8 @@ started from the one before. Rules determine what the mission does not state:
   is the nearest bearing that is clear;
 - elevation: level with the subject, or as little above it as the ground clearance needs;
 - size: ``viewpoint.WHOLE_SIZE``, where no subject has one; for one subject the largest size up to that at
-  which it is whole, where it is wider than the frame;
+  which it is whole, where it is wider than the frame. If the camera lacks a clearance there, it is the
+  nearest size at which it has room;
 - place on screen: for one subject, the place of its composition nearest to the middle at which it is whole;
   for several, each place of the composition once.
 """
@@ -50,6 +51,11 @@ MOST_RESTARTS = 5  # most restarts of the first pose
 SAME_TIME_S = 1e-6  # seconds
 SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
 """Sizes that are tried for one subject without a required size; the first at which it is whole is taken."""
+OTHER_SIZES, FEW_OTHER_SIZES = (
+    tuple(step ** (sign * k) for k in range(1, count + 1) for sign in (1, -1))
+    for step, count in ((0.9, 24), (0.65, 6))
+)
+"""Factors on that size, the nearest first, tried if the camera has no room; few where its bearing is free."""
 
 
 class StartedFraming(NamedTuple):
@@ -83,6 +89,12 @@ def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
     return _alone(scene) if len(shot.subjects) == 1 and scene.near is None else _several(scene)
 
 
+def sizes_are_free(shot: Shot) -> bool:
+    """Return whether a shot is a framing that states no size of any subject."""
+    framed = shot.ideal is not None and shot.ideal.framed
+    return framed and all(s.size is None and all(k.size is None for k in s.setpoints) for s in shot.subjects)
+
+
 def places_of(composition: Composition) -> list[Vec2]:
     """Return the places (u, v) of a composition, the nearest to the middle first.
 
@@ -102,9 +114,7 @@ def _alone(scene: FramedScene) -> StartedFraming:
     tried = (_Beside(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition))
     first = _Beside(scene, lowest, places_of(subject.composition)[0], sizes[0])
     beside = next((one for one in tried if one.is_whole()), first)
-    points = beside.points(0.0)
-    if beside.wanted[0].azimuth is None:
-        points = _clear_bearing(scene, target, beside)
+    beside, points = _with_room(scene, target, beside)
     ideal = scene.shot.ideal
     assert ideal is not None
     shot = scene.shot._replace(ideal=ideal._replace(points=points), subjects=(_at_place(subject, beside.uv),))
@@ -124,7 +134,7 @@ class _Beside:
 
     def __init__(self, scene: FramedScene, lowest: Vec3, uv: Vec2, size: float) -> None:
         mission, start, subject = scene.mission, scene.start, scene.shot.subjects[0]
-        self.scene, self.uv = scene, uv
+        self.scene, self.uv, self.size = scene, uv, size
         self.subject = _at_place(subject, uv)._replace(size=size)
         knots = scene.times if subject.setpoints else (start,)
         self.wanted = tuple(
@@ -173,13 +183,44 @@ def _stood(scene: FramedScene, subject: RequiredView, bearing: float) -> Vec3:
     return offset
 
 
+def _with_room(scene: FramedScene, target: Target, beside: _Beside) -> tuple[_Beside, OffsetPoints]:
+    """Return a camera and its offsets; if its size is free, the nearest size at which it has room."""
+    points = _placed(scene, target, beside)
+    best, least = (beside, points), _shares(scene, target, points)
+    if scene.shot.subjects[0].size is not None or least[0] == 0.0:
+        return best
+    for ratio in OTHER_SIZES if beside.wanted[0].azimuth is not None else FEW_OTHER_SIZES:
+        other = _Beside(scene, beside.wanted[0].centre, beside.uv, ratio * beside.size)
+        if not other.is_whole():
+            continue
+        points = _placed(scene, target, other)
+        shares = _shares(scene, target, points)
+        if shares < least:
+            best, least = (other, points), shares
+        if least == (0.0, 0.0):
+            break
+    return best
+
+
+def _placed(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
+    """Return the offsets at the required bearing, or at the nearest clear one."""
+    if beside.wanted[0].azimuth is None:
+        return _clear_bearing(scene, target, beside)
+    return beside.points(0.0)
+
+
+def _shares(scene: FramedScene, target: Target, points: OffsetPoints) -> tuple[float, float]:
+    """Return ``FramedScene.shares`` of a camera with these offsets."""
+    return scene.shares([(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks])
+
+
 def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
     """Return the offsets at the clear bearing nearest to the drone's."""
     first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
     best, least = beside.turned(north, 0.0), (2.0, 2.0)
     for k in range(round(2 * pi / BEARING_STEP_RAD)):
         turned = beside.turned(north, first + BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1))
-        shares = scene.shares([(t, plus(target.at(t), scene.along(turned, t))) for t in scene.looks])
+        shares = _shares(scene, target, turned)
         if shares < least:
             best, least = turned, shares
         if least == (0.0, 0.0):

@@ -47,14 +47,14 @@ drones:
 rules: {mutual_visibility: {strength: off}, allow: [jump-cut]}
 shots:
   - {id: side, kind: lateral, drone: cam1, target: runner, side: left, distance: 8, altitude: 4,
-     timing: {start: 28, duration: 8}}
-  - id: before
+     timing: {start: 18, duration: 8}}
+  - id: beside
     kind: keyframes
     drone: cam2
     target: runner
     keyframes:
-      - {at: {from: runner, offset: [3, 10, 3.1]}, look_at: runner, time: 0}
-      - {at: {from: runner, offset: [4, 10, 3.1]}, look_at: runner, time: 5}
+      - {at: {from: runner, offset: [1.6, 10, 3.1]}, look_at: runner, time: 0}
+      - {at: {from: runner, offset: [2.6, 10, 3.1]}, look_at: runner, time: 5}
     timing: {start: 20, duration: 5}
 """
 _SECOND = ",\n                {target: rider, frame: [0.27, 0.0]}"

@@ -33,6 +33,7 @@ from shotc.passes.solve_path_qp.explain.path import (
 )
 from shotc.passes.solve_path_qp.explain.schedule import out_of_turn, outside_track, too_late, way_met
 from shotc.planning.clock.itinerary import Itinerary
+from shotc.planning.clock.later_films import later_films
 from shotc.planning.clock.moving import moving_targets
 from shotc.planning.clock.others import other_drones
 from shotc.planning.clock.remedy import beside_meshes
@@ -213,7 +214,8 @@ def _plan(
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, known.flights))
-    others = OtherVehicles(moving, visibility_of(mission, drone, known.flights))
+    later = later_films(mission, drone, ir.shots, known.flights)
+    others = OtherVehicles(moving, visibility_of(mission, drone, known.flights), later)
     itinerary = Itinerary(mission, flight, others, known.ends)
     curves = {s.shot.shot.id: s for s in shots}
     planned = _on_clock(itinerary, [curves.get(p.shot.id, p) for p in mine], warnings, ctx)

@@ -8,7 +8,8 @@ verification.
 A transfer that comes too near to a target would fail verification. It is returned only if there is no other,
 not even a late one. The same holds for one that breaks a clearance of transfers that the mission states.
 Where the mission states none, these clearances are a preference: a transfer that is in time keeps them if it
-can, but nothing waits long for them.
+can, but nothing waits long for them. In the same way a transfer leaves the places free where drones that are
+planned later film at fixed times.
 """
 
 from __future__ import annotations
@@ -221,7 +222,8 @@ def _tries(
         until_then = times <= end
         met = _met(others.moving, drone.radius, course, times[until_then])
         between = until_then & ~upright
-        apart = [(what, _apart(what, times[between], places[between])) for what in others.moving]
+        kept_from = (*others.moving, *others.later)
+        apart = [(what, _apart(what, times[between], places[between])) for what in kept_from]
         kept = min((lack for _, lack in apart), default=inf)
         required = min((lack for what, lack in apart if what.required), default=inf)
         yield Transfer(tuple(started), leaves + duration, slack, unseen, met, kept, required)
@@ -292,11 +294,15 @@ def _slack(what: Moving, radius: float, times: Array, places: Array, upright: Ma
 
 
 def _apart(what: Moving, times: Array, places: Array) -> float:
-    """Return the least slack over the clearance of transfers from something that moves, metres."""
-    if what.apart <= what.clearance or not len(times):
+    """Return the least slack over the clearance of transfers from something that moves, metres.
+
+    It does not taper towards an end of the transfer at which this is not there.
+    """
+    here = what.is_there(times)
+    if what.apart <= what.clearance or not here.any():
         return inf
-    beside = places - what.at(times)
-    ends = beside[[0, -1]]
+    beside = (places - what.at(times))[here]
+    ends = beside[[i for i in (0, -1) if here[i]]]
     taper = Taper(what.apart, TAPER_SLOPE, ends, distances(what.part, ends))
     return float((distances(what.part, beside) - taper.needs(beside)).min())
 

@@ -51,6 +51,10 @@ def leading_aside(before: bool, after: bool) -> tuple[EndRequirement, ...]:
     )
 
 
+ASIDES = tuple(leading_aside(*ends) for ends in ((False, True), (True, False), (True, True)))
+"""Requirements that are tried where there is no motion with straight ends."""
+
+
 def run_up_and_out(
     camera_task: CameraTask,
     shot: Shot,

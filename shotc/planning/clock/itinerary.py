@@ -23,7 +23,7 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
 from shotc.planning.clock.detours import Meanwhile, Transit, ways_home, ways_to
-from shotc.planning.clock.ends import END_REQUIREMENTS, FROM_AFAR, EndRequirement, leading_aside
+from shotc.planning.clock.ends import ASIDES, END_REQUIREMENTS, FROM_AFAR, EndRequirement, leading_aside
 from shotc.planning.clock.flights import flight
 from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import NoMotion, OtherVehicles, timed_shot
@@ -333,12 +333,16 @@ class Itinerary:
         """Plan a shot for a start, and the transfer to it.
 
         If every transfer to its first pose comes too near to a target, the shot begins aside or farther off,
-        if that helps. If the run-up or the run-out lacks clearances of transfers, it leads aside.
+        if that helps. If the run-up or the run-out lacks clearances of transfers, it leads aside. The same if
+        there is no motion: a subject that follows the camera runs into a drone that stops ahead of it.
         """
         short = outside(self.mission, placed, start)
         if short is not None:
             return short
         near = self._reached_as(placed, start, END_REQUIREMENTS)
+        if isinstance(near, NoMotion) and near.missed is None:
+            asides = (self._reached_as(placed, start, aside) for aside in ASIDES)
+            return next((a for a in asides if isinstance(a, Reached) and a.transfer.met is None), near)
         if not isinstance(near, Reached):
             return near
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from math import inf
 
 import numpy as np
 
@@ -35,6 +36,9 @@ REACH_M = 4.0  # metres beyond its clearance, within which an obstacle counts
 TOUCH_M = 1e-3  # metres, tolerance of the distance
 COMFORT_M = 0.3  # metres kept beyond a clearance where there is free space
 
+PlacesAt = Callable[[Array], Array]
+"""Positions p_W (M, 3), metres, at mission times (M,), seconds."""
+
 
 @dataclass(frozen=True, slots=True)
 class Moving:
@@ -46,15 +50,21 @@ class Moving:
     always : whether the clearance also holds during take-off and landing
     apart : clearance on transfers, metres
     required : whether the mission states that clearance
+    present : mission times between which it is there, seconds
     """
 
     owner: Owner
     part: Solid
     clearance: float
-    at: Callable[[Array], Array]
+    at: PlacesAt
     always: bool = False
     apart: float = 0.0
     required: bool = False
+    present: tuple[float, float] = (-inf, inf)
+
+    def is_there(self, times: Array) -> Mask:
+        """Return whether it is there at mission times, of any shape."""
+        return np.asarray((times >= self.present[0]) & (times <= self.present[1]))
 
 
 def standing(spaces: FreeSpaces) -> tuple[Moving, ...]:

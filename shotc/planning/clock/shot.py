@@ -53,10 +53,14 @@ PICTURES = "the pictures of other drones"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OtherVehicles:
-    """The moving obstacles of a shot, and the pictures of others that count."""
+    """The moving obstacles of a shot, and the pictures of others that count.
+
+    later : films of drones that are planned later, from which transfers keep away if they can
+    """
 
     moving: tuple[Moving, ...]
     visibility: Visibility
+    later: tuple[Moving, ...] = ()
 
 
 Around = tuple[FreeSpaces, OtherVehicles]

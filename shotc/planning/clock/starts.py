@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import takewhile
 from math import inf
 
 import numpy as np
 
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.phases import Phase
 from shotc.planning.clock.departure import TargetConflict, Transfer
 from shotc.planning.clock.ideals import ideal_places
@@ -130,16 +131,27 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
 
     Its target may be outside of them at first. If no such start comes soon, ``start`` is returned.
     """
-    duration = placed.shot.timing.duration or 0.0
-    for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S):
-        first = start + float(more)
-        if outside(mission, placed, first) is not None:
-            break
-        there = placed_at(mission, placed, first).shot
-        times = first + np.append(np.arange(0.0, duration, WHOLE_S), duration)
-        if bounds_slack(space, ideal_places(mission, there, first, times)).min() >= 0.0:
-            return first
-    return start
+    firsts = (start + float(more) for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S))
+    tried = list(takewhile(lambda first: outside(mission, placed, first) is None, firsts))
+
+    def fits(i: int, shot: Shot | None = None) -> bool:
+        """Return whether a shot, by default as it is placed for a start, is inside for the start."""
+        shot = placed_at(mission, placed, tried[i]).shot if shot is None else shot
+        duration = shot.timing.duration or 0.0
+        times = tried[i] + np.append(np.arange(0.0, duration, WHOLE_S), duration)
+        return bool(bounds_slack(space, ideal_places(mission, shot, tried[i], times)).min() >= 0.0)
+
+    if not tried or fits(0):
+        return start
+    # Placing a framing takes long. Placed for the first start, it is a good guess for the later ones.
+    moved = placed_at(mission, placed, start).shot
+    guess = next((i for i in range(1, len(tried)) if fits(i, moved)), 1)
+    found = next((i for i in range(guess, len(tried)) if fits(i)), None)
+    if found is None:
+        found = next((i for i in range(1, guess) if fits(i)), None)
+    elif found == guess:
+        found = next((i + 1 for i in range(guess - 1, 0, -1) if not fits(i)), 1)
+    return start if found is None else tried[found]
 
 
 def put_off(

@@ -79,7 +79,7 @@ def apart(a: Take, b: Take, rules: Rules) -> bool:
         start, end = max(a.times[0], b.times[0]), min(a.times[-1], b.times[-1])
         if start > end:
             return True
-        t = np.arange(start, end, 0.2)
+        t = np.append(np.arange(start, end, 0.2), end)  # one may begin in the moment in which the other ends
         one, other = (
             np.column_stack([np.interp(t, x.times, x.places[:, k]) for k in range(3)])
             for x in (a, b)

@@ -13,13 +13,13 @@ from shotc.ir.path import PathIR
 pytestmark = pytest.mark.slow
 
 BESIDE = registry()["M038"].failing
-"""A shot that binds in the way to another drone's shot, which yields."""
+"""A shot that binds beside another drone's shot at the same time, which yields."""
 TWO_THAT_BIND = BESIDE.replace(
     "kind: lateral, drone: cam1, target: runner, side: left, distance: 8, altitude: 4,",
     "kind: keyframes, drone: cam1, target: runner,\n     keyframes: ["
-    "{at: {from: runner, offset: [3, 10, 3.1]}, look_at: runner, time: 0}, "
-    "{at: {from: runner, offset: [4, 10, 3.1]}, look_at: runner, time: 5}],",
-).replace("timing: {start: 28, duration: 8}", "timing: {start: 20, duration: 5}")
+    "{at: {from: runner, offset: [1.6, 10, 3.1]}, look_at: runner, time: 0}, "
+    "{at: {from: runner, offset: [2.6, 10, 3.1]}, look_at: runner, time: 5}],",
+).replace("timing: {start: 18, duration: 8}", "timing: {start: 20, duration: 5}")
 
 
 @cache
