@@ -54,7 +54,7 @@ MOST_SCALAR = 1.1
 """Largest control point of a scalar. Above 1 a scalar passes 1 before it slows down. Without a bound, one
 that has time to spare would grow further.
 """
-RAMPS = Ramps(0.5, 0.5, 0.5, 0.5)
+RAMPS = Ramps(0.3, 0.3, 0.6, 0.6)
 """The profile of each scalar on the first motion."""
 MOST_ROUNDS = 7
 WORTH_SHARE = 0.005
