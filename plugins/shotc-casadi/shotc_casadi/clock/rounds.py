@@ -169,7 +169,7 @@ def _begun(shot: _Shot) -> _Round:
     subject, guide = shot.subject, shot.guide
     references = references_at(subject, shot.breaks)
     over = () if subject.together else passes(subject, shot.breaks, references)
-    first = guess_past(guess_to_side(guide, over), references, shot.occluders, shot.shown)
+    first = guess_past(guess_to_side(guide, over), references, shot.occluders, shot.shown, subject.drone)
     course = first if shot.occluders else guide
     return _Round(references, course, shot.guess(first), over, guess_aside=bool(over or shot.occluders))
 
