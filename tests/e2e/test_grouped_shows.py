@@ -83,6 +83,7 @@ def test_ways_that_nobody_asked_for_are_changed_and_that_is_told(
     assert len(refused.labels) == 2
 
 
+@pytest.mark.long
 def test_the_plan_is_proved_again_from_its_bytes(plan: VerifiedIR) -> None:
     (file,) = EMITTER.emit(plan).artifacts
     report = api.verify_plan(file.data, "plan.json")
@@ -105,6 +106,7 @@ def test_the_command_says_who_draws_what(tmp_path: Path) -> None:
     assert (tmp_path / "out" / "three-groups.skyc").exists()
 
 
+@pytest.mark.long
 def test_compare_has_nothing_to_compare_without_a_camera(tmp_path: Path) -> None:
     (tmp_path / "show.yaml").write_text(ALONE)
     done = run("compare", "show.yaml", folder=tmp_path)

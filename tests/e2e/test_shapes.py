@@ -100,6 +100,7 @@ def test_other_eyes_see_another_shape(old: str, new: str, rule: str) -> None:
     assert any(finding.rule == rule for finding in findings(asked))
 
 
+@pytest.mark.long
 def test_pictures_and_recording_show_them() -> None:
     plan = compiled(VAN).plan
     assert plan is not None

@@ -55,6 +55,7 @@ def test_what_a_flight_shows_is_what_simulate_s_judge_sees(draft):
     assert mine.roll == pytest.approx(course.roll)
 
 
+@pytest.mark.long
 def test_in_wind_the_table_has_a_row_for_the_plan_and_a_worse_one_for_each_loop(draft):
     table = flown.in_wind([draft], 2, lambda _said: None)
     assert [name for name, *_ in table.rows] == ["as planned", "flown, `replay`", "flown, `track`"]

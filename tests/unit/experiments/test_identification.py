@@ -23,6 +23,7 @@ def test_what_is_drawn_by_hand_is_found(made):
     assert within(found, 2, 0.05) >= 0.9
 
 
+@pytest.mark.long
 def test_the_rule_as_printed_finds_less_in_one_open_surface(made):
     ours = run(made, hand_drawn, surface=True).trials
     assert right(ours) >= 0.95

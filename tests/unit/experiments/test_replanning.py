@@ -87,6 +87,7 @@ def test_past_walkers_a_head_is_seen_and_nobody_is_touched(name):
     assert set(one.told) <= {"planned", "stalled"}
 
 
+@pytest.mark.long
 def test_two_drones_planned_anew_keep_apart_and_out_of_each_other_s_pictures():
     one, alone = (two_anew.fly(coordinated=together) for together in (True, False))
     assert one.nearest >= two_anew.APART

@@ -190,7 +190,7 @@ def test_bodies_side_by_side_touch_where_their_sides_meet(
     assert not touch(a, b, (0.0, 0.0, 2.01))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @given(boxes | cylinders, angles)
 def test_the_cylinder_about_a_body_holds_it(shape: BoxShape | CylinderShape, yaw: float) -> None:
     turned = surface(shape.facing((cos(yaw), sin(yaw))))

@@ -164,7 +164,7 @@ def test_files_that_lost_or_gained_something_are_read_without_a_traceback(
     held(format, text.encode())
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(deadline=None, max_examples=100)
 @given(
     st.lists(st.floats(-200, 200) | st.none() | st.booleans() | st.text(max_size=3), min_size=7, max_size=7)

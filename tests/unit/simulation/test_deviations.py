@@ -56,6 +56,7 @@ def only(found: list[Diagnostic]) -> Diagnostic:
     return one
 
 
+@pytest.mark.long
 def test_a_subject_faster_than_the_drone_is_a_warning_at_its_shot() -> None:
     done = flown(RehearsalOptions(loop="replan", truth=rides(12.0)))
     found = only(list(deviations(done)))
@@ -74,6 +75,7 @@ def test_a_subject_faster_than_the_drone_is_a_warning_at_its_shot() -> None:
     )
 
 
+@pytest.mark.long
 def test_the_proposed_speed_and_the_true_track_end_the_warning() -> None:
     asked = RehearsalOptions(loop="replan", truth=rides(9.0))
     found = only(list(deviations(flown(asked))))
@@ -85,6 +87,7 @@ def test_the_proposed_speed_and_the_true_track_end_the_warning() -> None:
     assert list(deviations(flown(asked, text))) == []
 
 
+@pytest.mark.long
 def test_a_subject_that_the_drone_can_follow_is_none() -> None:
     assert list(deviations(flown(RehearsalOptions(loop="replan", truth=rides(4.0))))) == []
 
@@ -101,6 +104,7 @@ def test_a_receiver_10_m_off_is_a_warning_at_the_drone(loop) -> None:
     assert any("target rider" in note or "ground" in note for note in found.notes)
 
 
+@pytest.mark.long
 def test_gusts_and_corrected_positions_are_none() -> None:
     done = flown(RehearsalOptions(loop="replan", gusts=1.0))
     assert list(deviations(done)) == []

@@ -77,6 +77,7 @@ def test_a_replanner_that_hangs_in_c_is_killed_and_asked_again_in_a_new_process(
     assert np.array_equal(one.plan.times, other.plan.times)
 
 
+@pytest.mark.long
 def test_a_process_that_lost_its_parent_while_it_hangs_ends_itself():
     with child_process.started(serve.__module__, serve.__name__) as process:
         order = replanner_process._Order(0, problem(STAGES), situation(STAGES), still())

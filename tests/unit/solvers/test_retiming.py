@@ -108,7 +108,7 @@ def test_every_move_begins_and_ends_at_rest_without_acceleration():
         assert np.abs(derivative[-1, -1]).max() == 0.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=25, deadline=None, derandomize=True)
 @given(
     seed=st.integers(0, 10**6),

@@ -241,7 +241,7 @@ def test_aliases_cannot_build_what_brackets_may_not() -> None:
     assert (fault.kind, fault.span.line, fault.span.column) == ("too-deep", 2, 34)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_too_many_bytes_and_values() -> None:
     (fault,) = parse(b"a: " + b"x" * MAX_BYTES, "m").faults
     assert fault.kind == "too-large"

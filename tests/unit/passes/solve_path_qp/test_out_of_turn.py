@@ -32,6 +32,7 @@ def codes(mission: str) -> list[str]:
     return [d.code for d in planned(mission).diagnostics]
 
 
+@pytest.mark.long
 def test_who_finds_no_way_goes_first_and_the_other_keeps_clear() -> None:
     path = planned(BESIDE).reports[-1].output
     assert isinstance(path, PathIR)
@@ -43,18 +44,21 @@ def test_who_finds_no_way_goes_first_and_the_other_keeps_clear() -> None:
     assert all(claim.worst >= claim.limit for claim in apart)
 
 
+@pytest.mark.long
 def test_drones_of_one_priority_have_no_order_that_is_told() -> None:
     assert codes(BESIDE) == ["M038"]
     assert codes(BESIDE.replace("priority: 2", "priority: 1")) == []
     assert codes(BESIDE.replace(", priority: 1", ", priority: 3")) == []
 
 
+@pytest.mark.long
 def test_where_no_order_does_it_is_said_of_the_first_one() -> None:
     (fault,) = planned(TWO_THAT_BIND).diagnostics
     assert fault.code == "M015"
     assert "`cam2`" in fault.message
 
 
+@pytest.mark.long
 def test_who_waits_for_a_shot_of_another_drone_does_not_go_before_it() -> None:
     waiting = BESIDE.replace("start: 20, duration: 5", "after: side, duration: 5")
     path = planned(waiting).reports[-1].output

@@ -127,7 +127,7 @@ def test_half_the_spacing_of_a_cloud_is_taken_off() -> None:
     assert claims["pyro 1 fountain from the scene"].worst == pytest.approx(2.6, abs=1e-5)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=examples(4, 300), deadline=None)
 @given(st.integers(0, 2**31), st.floats(2.0, 30.0))
 def test_no_sample_is_nearer_than_what_is_proved(seed: int, height: float) -> None:

@@ -89,7 +89,7 @@ def test_a_camera_goes_along_beside_the_target_that_its_place_counts_from() -> N
     assert np.ptp(track.curve(t)[:, 0]) > 8.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("refiner", ["none", "ours"])
 def test_angles_that_a_camera_stays_near_turn_it_towards_them(refiner: str) -> None:
     mean = []

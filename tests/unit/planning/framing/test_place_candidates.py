@@ -77,7 +77,7 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(
         assert setting.apart(asked, chosen) <= min(setting.apart(asked, p) for p in good) + 1e-9
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @given(settings, places)
 @example(TWO_STRETCHES, (1.0, 1.0))
 @example(TWO_STRETCHES, (-1.0, 1.0))
@@ -108,7 +108,7 @@ def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -
     assert 0.0 <= near.slack(chosen) <= 2 * TOUCH_M
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @given(settings, places)
 def test_the_verticals_give_the_nearest_whole_place_where_points_crop(
     setting: FixedCamera, asked: Vec2

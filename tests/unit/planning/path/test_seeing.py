@@ -55,6 +55,7 @@ def plain() -> MovingLeg:
     return film(square(), pair())
 
 
+@pytest.mark.long
 def test_a_way_between_placed_keyframes_is_led_to_where_its_target_is_seen(plain):
     of = with_meshes(square(), TREE)
     leg = film(of, pair())

@@ -93,7 +93,7 @@ def planned(spacing: float, shape: str) -> VerifiedIR:
     return done.plan
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("spacing", "shape"), [(0.6, "ellipsoid"), (1.6, "ellipsoid"), (0.8, "cylinder")])
 def test_everybody_lands_where_he_took_off(spacing: float, shape: str) -> None:
     (track,) = planned(spacing, shape).trajectory.fleets

@@ -14,7 +14,7 @@ from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_it_plays_the_show_at_its_own_pace() -> None:
     plan = show_flights.plan()
     (file,) = EMITTER.emit(plan).artifacts

@@ -247,7 +247,7 @@ def test_a_picture_counts_the_lights_that_shine() -> None:
     assert sum(t.text.endswith(f"{len(flight.coef) - 17} of {len(flight.coef)} lights") for t in found) == 2
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_map_has_relief_with_heights_and_the_houses_that_stand_there() -> None:
     level = EMITTER.emit(show_flights.plan()).artifacts[0].data
     ground = terrain(ridge(60.0, at=25.0))

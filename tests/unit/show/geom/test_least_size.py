@@ -64,7 +64,7 @@ def test_no_pair_comes_too_near_at_that_size_and_some_would_at_less(drawn: objec
     assert near[asked].max(initial=0.0) <= 1.06
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(ends)
 def test_the_way_is_large_enough_everywhere_and_turns_one_way(drawn: object) -> None:

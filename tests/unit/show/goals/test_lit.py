@@ -189,6 +189,7 @@ def test_letters_too_small_for_the_spacing() -> None:
     assert "D063" not in codes(mission(text("GO", 9.0), "legible", 30))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("apart", [APART, Apart("cylinder", 1.2, 2.0, 0.2)])
 def test_layers_show_more_lights_of_which_none_is_beside_a_stroke(apart: Apart) -> None:
     source = text("LOVE", 14.0)

@@ -44,6 +44,7 @@ def met(text: str) -> list[Diagnostic]:
     return [d for d in compiled_text(text).diagnostics if d.code == "D087"]
 
 
+@pytest.mark.long
 def test_two_groups_that_meet_are_named_with_a_start_that_does() -> None:
     (d,) = met(SWAPPED)
     assert d.message.startswith("fleet `swarm` and group `swarm/east` come within ")

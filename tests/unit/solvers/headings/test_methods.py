@@ -92,7 +92,7 @@ def test_turning_the_keyframes_turns_the_result(method: str, yaw: list[float], b
         np.testing.assert_allclose(np.diff(one.angles), np.diff(other.angles), atol=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=30, deadline=None)
 @given(yaw=st.lists(st.floats(-pi, pi), min_size=3, max_size=4), each=st.floats(3.8, 9.0))
 def test_winding_is_the_cheapest_of_all_windings(yaw: list[float], each: float) -> None:
