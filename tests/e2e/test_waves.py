@@ -94,6 +94,7 @@ def test_a_wave_that_brings_drones_too_near_says_which_would_not(folder: Path) -
     assert not (folder / "long").exists()
 
 
+@pytest.mark.long
 def test_check_refuses_waves_on_arcs_and_in_no_time(folder: Path) -> None:
     (folder / "arc.yaml").write_text(
         MISSION.replace("wave: 3 s", "path: arc, wave: 3 s").replace("duration: 20 s", "duration: 3 s")

@@ -92,6 +92,7 @@ def test_a_subject_that_the_drone_can_follow_is_none() -> None:
     assert list(deviations(flown(RehearsalOptions(loop="replan", truth=rides(4.0))))) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("loop", ["track", "replan"])
 def test_a_receiver_10_m_off_is_a_warning_at_the_drone(loop) -> None:
     done = flown(RehearsalOptions(loop=loop, bias=10.0))

@@ -34,7 +34,7 @@ def test_two_fleets_that_fly_alike_stay_as_far_apart_as_their_pads():
     assert pair.clearance == pytest.approx(3.0 - 2 * 0.3, abs=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_camera_in_the_way_of_a_fleet_is_told_with_the_drone_that_meets_it():
     # It stands over the third pad, where that drone comes through on its way up and down.
     filmed = mission(drones=orbit_mission().drones)

@@ -78,6 +78,7 @@ def test_a_moving_subject_appears_as_its_setpoints_say_at_every_frame() -> None:
     assert np.abs(bearing - eased(t, [(0, 180), (9, 130)])).max() < 1.5
 
 
+@pytest.mark.long
 def test_a_plan_that_wants_something_else_than_the_setpoints_is_refused() -> None:
     plan = planned(text(ONE))
     (flight,) = plan.trajectory.drones
