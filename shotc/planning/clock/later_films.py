@@ -7,7 +7,7 @@ preference: a transfer keeps clear of them if it can be in time.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import partial
 from itertools import pairwise
 
@@ -71,6 +71,6 @@ def _on_path(limits: Limits, placed: PlacedShot, start: float) -> tuple[PlacesAt
     return partial(_between, scaled, np.repeat(places, 2, axis=0)), lasts
 
 
-def _between(knots: Array, places: Sequence[Array] | Array, times: Array) -> Array:
-    """Return places (M, 3), metres, linear between knots (K,), at mission times (M,), seconds."""
-    return np.column_stack([np.interp(times, knots, column) for column in np.asarray(places).T])
+def _between(knots: Array, places: Array, times: Array) -> Array:
+    """Return places (M, 3), metres, at mission times (M,), linear between places (K, 3) at knots (K,)."""
+    return np.column_stack([np.interp(times, knots, column) for column in places.T])
