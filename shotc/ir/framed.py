@@ -89,12 +89,6 @@ def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
     return _alone(scene) if len(shot.subjects) == 1 and scene.near is None else _several(scene)
 
 
-def sizes_are_free(shot: Shot) -> bool:
-    """Return whether a shot is a framing that states no size of any subject."""
-    framed = shot.ideal is not None and shot.ideal.framed
-    return framed and all(s.size is None and all(k.size is None for k in s.setpoints) for s in shot.subjects)
-
-
 def places_of(composition: Composition) -> list[Vec2]:
     """Return the places (u, v) of a composition, the nearest to the middle first.
 
@@ -113,15 +107,14 @@ def _alone(scene: FramedScene) -> StartedFraming:
     sizes = SMALLER if subject.size is None else (subject.size,)
     tried = (_Beside(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition))
     first = _Beside(scene, lowest, places_of(subject.composition)[0], sizes[0])
-    beside = next((one for one in tried if one.is_whole()), first)
-    beside, points = _with_room(scene, target, beside)
+    whole = next((one for one in tried if one.is_whole()), first)
+    beside, points, (blocked, hidden) = _with_room(scene, target, whole)
     ideal = scene.shot.ideal
     assert ideal is not None
     shot = scene.shot._replace(ideal=ideal._replace(points=points), subjects=(_at_place(subject, beside.uv),))
     poses = tuple(
         _aimed(target.at(t), scene.along(points, t), beside.place_at(t), scene.lens) for t in scene.times
     )
-    blocked, hidden = scene.shares([(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks])
     return StartedFraming(shot, scene.times, poses, blocked, hidden)
 
 
@@ -183,49 +176,52 @@ def _stood(scene: FramedScene, subject: RequiredView, bearing: float) -> Vec3:
     return offset
 
 
-def _with_room(scene: FramedScene, target: Target, beside: _Beside) -> tuple[_Beside, OffsetPoints]:
-    """Return a camera and its offsets; if its size is free, the nearest size at which it has room."""
-    points = _placed(scene, target, beside)
-    best, least = (beside, points), _shares(scene, target, points)
-    if scene.shot.subjects[0].size is not None or least[0] == 0.0:
+class _Tried(NamedTuple):
+    """A camera beside one subject, its offsets, and its ``FramedScene.shares``."""
+
+    beside: _Beside
+    points: OffsetPoints
+    shares: tuple[float, float]
+
+
+def _with_room(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
+    """Return a camera at its place; if its size is free, at the nearest size at which it has room."""
+    best = _at_bearing(scene, target, beside)
+    if scene.shot.subjects[0].size is not None or best.shares[0] == 0.0:
         return best
     for ratio in OTHER_SIZES if beside.wanted[0].azimuth is not None else FEW_OTHER_SIZES:
         other = _Beside(scene, beside.wanted[0].centre, beside.uv, ratio * beside.size)
         if not other.is_whole():
             continue
-        points = _placed(scene, target, other)
-        shares = _shares(scene, target, points)
-        if shares < least:
-            best, least = (other, points), shares
-        if least == (0.0, 0.0):
+        tried = _at_bearing(scene, target, other)
+        if tried.shares < best.shares:
+            best = tried
+        if best.shares == (0.0, 0.0):
             break
     return best
 
 
-def _placed(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
-    """Return the offsets at the required bearing, or at the nearest clear one."""
-    if beside.wanted[0].azimuth is None:
-        return _clear_bearing(scene, target, beside)
-    return beside.points(0.0)
-
-
-def _shares(scene: FramedScene, target: Target, points: OffsetPoints) -> tuple[float, float]:
-    """Return ``FramedScene.shares`` of a camera with these offsets."""
-    return scene.shares([(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks])
-
-
-def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
-    """Return the offsets at the clear bearing nearest to the drone's."""
-    first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
-    best, least = beside.turned(north, 0.0), (2.0, 2.0)
+def _at_bearing(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
+    """Return a camera at the required bearing, or at the clear one that is nearest to the drone's."""
+    north = beside.points(0.0)
+    if beside.wanted[0].azimuth is not None:
+        return _tried(scene, target, beside, north)
+    first = scene.comes_from(target.at(scene.start))
+    best: _Tried | None = None
     for k in range(round(2 * pi / BEARING_STEP_RAD)):
         turned = beside.turned(north, first + BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1))
-        shares = _shares(scene, target, turned)
-        if shares < least:
-            best, least = turned, shares
-        if least == (0.0, 0.0):
+        tried = _tried(scene, target, beside, turned)
+        if best is None or tried.shares < best.shares:
+            best = tried
+        if best.shares == (0.0, 0.0):
             break
+    assert best is not None
     return best
+
+
+def _tried(scene: FramedScene, target: Target, beside: _Beside, points: OffsetPoints) -> _Tried:
+    eyes = [(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks]
+    return _Tried(beside, points, scene.shares(eyes))
 
 
 def _several(scene: FramedScene) -> StartedFraming:

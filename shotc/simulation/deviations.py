@@ -28,7 +28,7 @@ LEFT_RATIO = 0.5
 of its planned size on screen.
 """
 
-BACK_S = 20.0
+RETURNING_S = 20.0
 """Seconds after a shot or an outage in which a drone's stray is no error of its receiver."""
 
 RECEIVER_SHARE = 0.5
@@ -172,8 +172,8 @@ def _on_plan(world: World, track: DroneTrajectory, times: Array) -> Array:
     """Return at which of times (M,) a drone follows its plan, (M,)."""
     inside = np.ones(len(times), dtype=bool)
     for start, end in world.conditions.lost(track.drone):
-        inside &= (times < start) | (times > end + BACK_S)
+        inside &= (times < start) | (times > end + RETURNING_S)
     if world.conditions.loop == "replan":
         for shot in replanned(world.mission, track):
-            inside &= (times < shot.phase.start) | (times > shot.phase.end + BACK_S)
+            inside &= (times < shot.phase.start) | (times > shot.phase.end + RETURNING_S)
     return inside

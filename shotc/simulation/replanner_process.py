@@ -179,7 +179,8 @@ def serve(orders: BinaryIO) -> None:
     """Run in the process: answer the replans in ``orders`` until there are no more."""
     with child_process.answers() as out:
         reference, seconds = pickle.load(orders)
-        plugin, data = _loaded(reference)
+        plugin = EntryPoint("replanner", reference, "")
+        data = child_process.answer_of(partial(_check, plugin))
         planners: dict[int, Any] = {}
         while True:
             out.write(data)
@@ -192,18 +193,15 @@ def serve(orders: BinaryIO) -> None:
                 data = child_process.answer_of(partial(_replanned, plugin, planners, order))
 
 
-def _loaded(reference: str) -> tuple[Any, bytes]:
-    """Return a plugin, None if it cannot be loaded, and the answer that says whether it could be."""
-    plugins_loaded: list[Any] = []
-    data = child_process.answer_of(
-        lambda: plugins_loaded.append(EntryPoint("replanner", reference, "").load())
-    )
-    return (plugins_loaded or [None])[0], data
+def _check(plugin: EntryPoint) -> None:
+    """Load a plugin, which raises if that is impossible."""
+    plugin.load()
 
 
-def _replanned(plugin: Replanner, planners: dict[int, Any], order: _Order) -> Any:
+def _replanned(plugin: EntryPoint, planners: dict[int, Any], order: _Order) -> Any:
     """Return the answer of the planner that an order names; the planner is made if it is new."""
     if order.problem is not None:
-        make: Any = plugin.chase if isinstance(order.problem, ChaseProblem) else plugin.framing
+        loaded = plugin.load()
+        make: Any = loaded.chase if isinstance(order.problem, ChaseProblem) else loaded.framing
         planners[order.number] = make(order.problem)
     return planners[order.number].replan(order.situation, order.last)

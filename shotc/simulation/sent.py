@@ -58,10 +58,7 @@ class Fading:
 
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint plus the remaining offset."""
-        return self.onto(time, self.film.setpoint(self.film.step(time)))
-
-    def onto(self, time: float, planned: VehicleSetpoint) -> VehicleSetpoint:
-        """Return a setpoint plus the remaining offset."""
+        planned = self.film.setpoint(self.film.step(time))
         if (time >= self.start + self.durations).all():
             return planned
         parts = (planned.position, planned.velocity, planned.acceleration)

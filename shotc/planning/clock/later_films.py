@@ -23,7 +23,6 @@ from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.moving import Moving, PlacesAt
 from shotc.planning.clock.others import POINT
 from shotc.planning.clock.run_up import way_time
-from shotc.planning.framing.moments import placed_at
 
 COMFORT_M = 0.5  # metres beyond the separation, as the film is bounded by control points
 
@@ -47,7 +46,7 @@ def _film(mission: MissionIR, placed: PlacedShot) -> Moving:
     if placed.shot.ideal is None:
         at, duration = _on_path(filming.limits, placed, start)
     else:
-        shot = placed_at(mission, placed, start).shot
+        shot = placed.shot  # placed for its start, which is fixed
         at, duration = partial(ideal_places, mission, shot, start), shot.timing.duration or 0.0
     apart = mission.rules.separation + COMFORT_M
     return Moving(

@@ -17,6 +17,7 @@ d0^2 + 1 / d1^2 <= 1 / d^2.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from math import acos, cos, pi, sin
 from typing import NamedTuple, Protocol
 
@@ -129,6 +130,12 @@ def basis(parts: int) -> Array:
     """
     u = np.linspace(0.0, 1.0, parts + 1)
     return np.stack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + u**2) - 3 * u**3 + 1, u**3]) / 6.0
+
+
+@cache
+def basis_at_starts(parts: int) -> Array:
+    """Return ``basis`` at the start of each part of a piece, shape (parts, 4)."""
+    return np.ascontiguousarray(basis(parts)[:, :-1].T)
 
 
 def angles(count: int) -> Array:

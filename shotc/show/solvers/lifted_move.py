@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
 from math import inf
 from typing import NamedTuple
 
@@ -26,7 +25,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
-from shotc.show.geom.arcs import Free, basis
+from shotc.show.geom.arcs import Free, basis_at_starts
 from shotc.show.solvers.arc_move import LACK_SHARE, Drones, times_of
 from shotc.show.solvers.move import family
 
@@ -152,7 +151,7 @@ class Course(NamedTuple):
 def sampled(ctrl: Array) -> Array:
     """Return a spline at uniform points of every piece, shape (P * SAMPLES,); ctrl : shape (P + 3,)."""
     windows = np.lib.stride_tricks.sliding_window_view(ctrl, 4)
-    return np.asarray((windows @ _basis().T).ravel())
+    return np.asarray((windows @ basis_at_starts(SAMPLES).T).ravel())
 
 
 def rising_paths(
@@ -299,9 +298,3 @@ def _concave(at: Array, values: Array) -> Array:
             corners.pop()
         corners.append(k)
     return np.asarray(np.interp(at, at[corners], row[corners]))
-
-
-@cache
-def _basis() -> Array:
-    """Return the weights of four control points at the start of each part, shape (SAMPLES, 4)."""
-    return np.ascontiguousarray(basis(SAMPLES)[:, :-1].T)

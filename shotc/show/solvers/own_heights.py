@@ -38,7 +38,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
-from shotc.show.geom.arcs import basis, sampled
+from shotc.show.geom.arcs import basis_at_starts, sampled
 from shotc.show.geom.cylinder_planes import CylinderPlanes, cylinder_planes, least_before_and_after
 from shotc.show.solvers.arc_move import ArcMove, Drones
 from shotc.show.solvers.move import LEAST_PIECE_S, Ramps, profile
@@ -210,7 +210,7 @@ class _Programme:
         # At both ends of a move the formations themselves are apart.
         inner = (planes.at > 0) & (planes.at < PIECES * PARTS)
         time, upright, normals = planes.at[inner], planes.upright[inner], planes.normals[inner]
-        weights = _basis()[time % PARTS]
+        weights = basis_at_starts(PARTS)[time % PARTS]
         terms = []
         for scalar in range(2):
             for point in range(4):
@@ -276,8 +276,3 @@ def _derivative(drones: Drones, order: int, axis: int) -> list[Term]:
 
 def _negative(terms: list[Term]) -> list[Term]:
     return [(cols, -values) for cols, values in terms]
-
-
-def _basis() -> Array:
-    """Return the weights of four control points at the start of each part of a piece, shape (PARTS, 4)."""
-    return np.ascontiguousarray(basis(PARTS)[:, :-1].T)

@@ -229,13 +229,19 @@ def test_broken():
 """
 
 
-@pytest.mark.long
-def test_a_mutant_meets_the_tests_of_its_line(tmp_path: Path) -> None:
-    """In a fork or, outside functions, in a fresh process; a test that fails anyway tells nothing."""
-    root = tmp_path / "root"
+def held_root(folder: Path) -> Path:
+    """A tree with nothing but the programme."""
+    root = folder / "root"
     shutil.copytree(ROOT / "tests/experiments/mutants", root / "tests/experiments/mutants")
     for name in ("tests/__init__.py", "tests/experiments/__init__.py", "pyproject.toml"):
         (root / name).touch()
+    return root
+
+
+@pytest.mark.long
+def test_a_mutant_meets_the_tests_of_its_line(tmp_path: Path) -> None:
+    """In a fork or, outside functions, in a fresh process; a test that fails anyway tells nothing."""
+    root = held_root(tmp_path)
     (root / "tests/held.py").write_text(HELD, encoding="utf-8")
     (root / "tests/test_held.py").write_text(HELD_TESTS, encoding="utf-8")
     subprocess.run(["git", "init", "-q"], cwd=root, check=True)
@@ -283,10 +289,7 @@ def test_a_killer_is_remembered_and_a_survivor_while_no_text_changes(tmp_path: P
 
 @pytest.mark.long
 def test_only_tests_of_new_text_are_recorded_again(tmp_path: Path) -> None:
-    root = tmp_path / "root"
-    shutil.copytree(ROOT / "tests/experiments/mutants", root / "tests/experiments/mutants")
-    for name in ("tests/__init__.py", "tests/experiments/__init__.py", "pyproject.toml"):
-        (root / name).touch()
+    root = held_root(tmp_path)
     (root / "held").mkdir()
     (root / "held/module.py").write_text(HELD, encoding="utf-8")
     for name in "ab":

@@ -83,9 +83,7 @@ def step_aside(breaks: Array, span: tuple[float, float], seconds: float) -> list
     seconds : of each step. One that would begin before the curve, or end after it, reaches into the span.
     """
     seconds = min(seconds, 0.5 * float(breaks[-1] - breaks[0]))
-    begin = max(span[0], breaks[0] + seconds)
-    end = min(span[1], breaks[-1] - seconds)
-    begin, end = min(begin, breaks[-1] - seconds), max(end, breaks[0] + seconds)
+    begin, end = np.clip(span, breaks[0] + seconds, breaks[-1] - seconds)
     before, after = (begin - breaks) / seconds, (breaks - end) / seconds
     rising = before > after
     x = np.clip(np.maximum(before, after), 0.0, 1.0)

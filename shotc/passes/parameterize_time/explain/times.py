@@ -93,11 +93,12 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
     shot = next((s for p in longest for s in mission.shots if p.shot == s.id), None)
     of_power = (*drone.path, "power") in mission.origins.keys
     path = (*drone.path, "power" if of_power else "endurance")
-    more = f"if the battery has it, write `endurance: {at_least(total)} s`"
-    if of_power:  # a written endurance would not change what the battery holds
-        more = (
-            f"fly with a battery that hovers {at_least(total)} s down to its reserve, and write it in `power`"
-        )
+    # A written endurance would not change what the battery holds.
+    more = (
+        f"fly with a battery that hovers {at_least(total)} s down to its reserve, and write it in `power`"
+        if of_power
+        else f"if the battery has it, write `endurance: {at_least(total)} s`"
+    )
     labels = [mission.origins.value(path, "the endurance")]
     if shot is not None:
         labels.append(mission.origins.key(shot.path, "the longest shot"))
