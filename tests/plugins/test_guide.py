@@ -19,7 +19,9 @@ GUIDE = (Path(__file__).parents[2] / "shotc" / "docs" / "plugins.md").read_text(
 _, _, AFTER = GUIDE.partition("## Names of `shotc.plugin_api`\n")
 NAMES, _, REST = AFTER.partition("## Names of `shotc.plugin_api.refiner`\n")
 REFINER_NAMES, _, REPLANNER_NAMES = REST.partition("## Names of `shotc.plugin_api.replanner`\n")
-EXAMPLES = dict(re.findall(r"```python\n# (\w+)\.py\n(.*?)```", GUIDE, re.DOTALL))
+EXAMPLES = {
+    name: body for body, name in re.findall(r'```python\n("""shotc_(\w+)\.py: .*?)```', GUIDE, re.DOTALL)
+}
 (SWING,) = re.findall(r"```yaml\n(.*?)```", GUIDE, re.DOTALL)
 RUN = """\
 shotc: 1

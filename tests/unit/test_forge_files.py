@@ -60,6 +60,20 @@ def test_the_files_that_the_examples_change_are_there() -> None:
     assert not any((ROOT / path).exists() for path in named if Path(path).stem in new)
 
 
+def test_the_step_of_the_examples_fits_the_route() -> None:
+    (written,) = re.findall(r"`(RouteStep\(.*?\))`", CONTRIBUTING)
+    step = eval(written, vars(pipeline))
+    following = pipeline.FILM[0]
+    assert (step.takes, step.gives) == (pipeline.FRONT[-1].gives, following.takes)
+
+
+def test_the_names_that_the_examples_extend_are_in_the_files_that_they_name() -> None:
+    pairs = re.findall(r"`([\w_]+)`\s+(?:of|in)\s+`((?:shotc|tests)/[\w/.]+\.py)`", CONTRIBUTING)
+    assert {name for name, _ in pairs} == {"MODULES", "parameters", "CODES", "GRAMMAR", "MISSION"}
+    for name, path in pairs:
+        assert re.search(rf"^{name}\b", (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE), name
+
+
 def test_the_version_of_python_is_told_once() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     versions = [c.rpartition(" ")[2] for c in project["classifiers"] if re.search(r":: 3\.\d+$", c)]
