@@ -102,6 +102,7 @@ def test_a_piece_lasts_until_the_largest_share_of_a_limit_is_one() -> None:
     lift = rng.uniform(0.0, 3.0, (5, 9))
     seconds = drones().least_pieces(ctrl, lift)
     for k in range(5):
+        assert drones().least_pieces(ctrl[k], lift[k]) == seconds[k]
         shares = [
             drones().shares(np.diff(ctrl[k], n, axis=0), n, np.diff(lift[k], n)).max() / seconds[k] ** n
             for n in (1, 2, 3)

@@ -15,13 +15,16 @@ from shotc.show.solvers.move import (
     PIECES,
     WORTH_RATIO,
     CommonMove,
+    Ramps,
     family,
     fastest,
     least_piece,
     least_pieces,
+    profile,
 )
 from tests.support.fleet_scenes import LIMITS
 
+LIMITED = ("speed", "climb", "descent", "acceleration", "jerk")
 EASINGS: tuple[Easing, ...] = ("ease-in-out", "linear", "ease-in", "ease-out")
 
 
@@ -41,6 +44,38 @@ def test_a_move_takes_hardly_longer_than_any_shape_of_any_number_of_pieces(far: 
     shortest = min(pieces * least_piece(pieces, ways, LIMITS) for pieces in PIECES)
     assert move.duration <= 1.002 * WORTH_RATIO * shortest
     assert move.duration >= far / (LIMIT_SHARE * LIMITS.speed)
+
+
+def test_a_pace_is_a_share_of_every_limit() -> None:
+    ways = np.array([[9.0, 2.0, 1.0]])
+    half = LIMITS._replace(**{name: 0.5 * getattr(LIMITS, name) for name in LIMITED})
+    assert fastest(ways, LIMITS, 0.5).piece == fastest(ways, half, 1.0).piece
+
+
+@pytest.mark.parametrize(
+    ("ways", "changes", "limit", "drone"),
+    [
+        ([[1.0, 0.0, 0.0], [900.0, 0.0, 0.0]], {}, "speed", 1),
+        ([[1.0, 0.0, 0.0], [1.0, 0.0, 900.0]], {}, "climb", 1),
+        ([[0.0, 0.0, -900.0], [1.0, 0.0, 9.0]], {}, "descent", 0),
+        ([[9.0, 0.0, 0.0], [1.0, 0.0, 0.0]], {"acceleration": 0.01}, "acceleration", 0),
+        ([[9.0, 0.0, 0.0], [0.0, 0.0, 10.0]], {"jerk": 0.01}, "jerk", 1),
+    ],
+)
+def test_the_limit_that_is_by_far_the_tightest_binds_the_drone_with_the_longest_way(
+    ways: list[list[float]], changes: dict[str, float], limit: str, drone: int
+) -> None:
+    move = fastest(np.array(ways), LIMITS._replace(**changes), 1.0)
+    assert (move.limit, move.drone) == (limit, drone)
+
+
+@pytest.mark.parametrize("ramps", [Ramps(0.2, 0.5, 0.5, 0.8), Ramps(0.5, 0.2, 0.8, 0.5)])
+def test_the_peaks_of_a_profile_are_those_of_its_derivatives(ramps: Ramps) -> None:
+    at = np.linspace(0.0, 1.0, 4001)
+    s = profile(at, ramps)
+    for order, peak in enumerate(ramps.peaks, 1):
+        s = np.diff(s) * 4000.0
+        assert np.abs(s).max() == pytest.approx(peak, rel=2e-3), order
 
 
 def speeds(move: CommonMove) -> Array:

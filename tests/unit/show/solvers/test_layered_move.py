@@ -62,3 +62,10 @@ def test_layers_rise_beside_each_other_in_time() -> None:
     alone = [rising([height], 2.5, np.arange(1), LIMITS).duration for height in heights]
     assert together < 0.5 * sum(alone)
     assert alone[0] == pytest.approx(27.5 / 2.5 + 2.5 / 2.5 + 2.5 / 8, abs=2 * PIECE_S)
+
+
+def test_a_take_off_ends_with_its_last_layer_and_a_landing_begins_with_its_first() -> None:
+    layers = np.arange(3)
+    up, down = (make([8.0, 6.0, 4.0], 2.0, layers, LIMITS) for make in (rising, sinking))
+    assert up.shares[:, -4].min() < 1.0
+    assert down.shares[:, 3].min() < 1.0

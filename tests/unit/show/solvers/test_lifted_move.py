@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from shotc.ir.limits import Limits
+from shotc.show.geom.arcs import Gaps
 from shotc.show.solvers.lifted_move import (
     BEYOND_M,
     EXTENSIONS,
@@ -99,6 +100,20 @@ def test_a_fleet_rises_over_a_wall_whatever_its_easing(easing: str) -> None:
     assert move is not None
     assert WALL_M <= move.height < 1.3 * WALL_M
     share, height = sampled(move.ctrl[:, 1]), sampled(move.lift)
-    assert height[(share > 0.5) & (share < 0.6)].min() >= WALL_M
+    assert WALL_M <= height[(share > 0.5) & (share < 0.6)].min() <= WALL_M + 2.0 * BEYOND_M
+    assert BEYOND_M <= 0.1
+    for flown, way, up in zip(move.between(*ends), move.ctrl[3:-3, 1], move.lift[3:-3], strict=True):
+        assert flown == pytest.approx(starts + np.array([way * FAR_M, 0.0, up]))
     assert move.duration == pytest.approx(move.piece * move.pieces)
     assert move.duration > 100.0 / 5.0
+
+
+def test_arcs_are_free_where_the_formations_are_a_separation_apart_on_them() -> None:
+    """Between formations without share to spare, a is 1 until b is 1."""
+    around, straight = (
+        np.array([[1.0, 0.0], *[middle] * 3, [0.0, 1.0]])[[0, 0, 0, 1, 2, 3, 4, 4, 4]]
+        for middle in ((1.5, 1.5), (0.5, 0.5))
+    )
+    course = Course(np.zeros(3), Gaps(1.0, 1.0))
+    assert course.free(np.stack([around, straight])).tolist() == [True, False]
+    assert Course(np.zeros(3)).free(np.stack([around, straight])).all()

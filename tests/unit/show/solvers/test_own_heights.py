@@ -17,9 +17,10 @@ from shotc.ir.limits import Limits
 from shotc.ir.show import Apart
 from shotc.show.geom.lattice import lattice
 from shotc.show.geom.least_size import least_size
-from shotc.show.solvers.arc_move import ArcMove, fastest_arc
+from shotc.show.solvers.arc_move import ArcMove, Drones, fastest_arc
 from shotc.show.solvers.match import matched
-from shotc.show.solvers.own_heights import MOST_SCALAR, OwnHeightsTask, own_heights
+from shotc.show.solvers.move import fastest
+from shotc.show.solvers.own_heights import MOST_SCALAR, OwnHeightsTask, _first, own_heights
 
 LIMITS = Limits(5.0, 2.5, 2.0, 2.5, 8.0, 1.0, 1.0)
 APART = Apart("cylinder", 1.5, 2.5, 0.0)
@@ -88,6 +89,38 @@ def test_nothing_is_needed_if_nobody_moves() -> None:
     move = own_heights(task((starts, starts)), MIDDLE)
     assert move is not None
     assert move.duration < 10.0
+
+
+@pytest.mark.slow
+def test_with_nobody_in_the_way_it_is_as_fast_as_the_straight_move() -> None:
+    starts = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    goals = np.array([[8.0, 0.0, -1.25], [-8.0, 0.0, 1.25]])
+    move = own_heights(task((starts, goals)), MIDDLE)
+    assert move is not None
+    assert move.duration <= fastest(goals - starts, LIMITS, 1.0).duration
+
+
+@pytest.mark.slow
+def test_a_pair_that_has_time_for_a_detour_above_stays_below_the_ceiling() -> None:
+    starts = np.array([[0.0, 0.0, 0.0], [0.0, 1.5, 0.0]])
+    goals = np.array([[0.0, 0.0, -1.25], [0.0, 0.0, 1.25]])
+    move = own_heights(task((starts, goals), high=1.3), MIDDLE)
+    assert move is not None
+    assert (move.heights @ [0.0, 1.25]).max() == pytest.approx(1.3, abs=1e-6)
+
+
+def test_the_first_motion_keeps_one_scalar_of_each_pair_at_one_and_is_the_same_backwards() -> None:
+    starts = np.array([[1.0, 2.0, 0.5], [-3.0, 0.0, -0.5]])
+    goals = np.array([[9.0, -4.0, -3.0], [-5.0, 7.0, 2.0]])
+    limits = LIMITS._replace(descent=LIMITS.climb)
+    there, back = (
+        _first(Drones.of(ends, MIDDLE, limits, 1.0).with_own_heights())
+        for ends in ((starts, goals), (goals, starts))
+    )
+    a, b, a_up, b_up = there.T
+    assert np.maximum(a, b_up) == pytest.approx(1.0)
+    assert np.maximum(a_up, b) == pytest.approx(1.0)
+    assert there == pytest.approx(back[::-1][:, [1, 0, 3, 2]])
 
 
 @pytest.mark.long
