@@ -12,8 +12,10 @@ from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.line_of_sight import gap_beside
 from shotc.geom.pose_search import Pose, PoseCost, Residuals, dot, least_cost_pose
 from shotc.geom.shapes import TargetShape
+from shotc.geom.solids import Solid, signed_distance
 from shotc.geom.vec import Vec2, Vec3, minus
 
 FAR_M = 1e5  # metres, the largest distance of a camera
@@ -42,15 +44,30 @@ class PreferredPose(NamedTuple):
     pitch: float | None = None
 
 
+class KeptSolid(NamedTuple):
+    """A solid, the side on which the camera stays, and its distance from the solid's surface, metres."""
+
+    solid: Solid
+    inside: bool
+    gap: float
+
+    def lack(self, at: Vec3) -> float:
+        """Return what a place lacks of the distance, metres; 0 where it has it."""
+        beyond = signed_distance(self.solid, at)
+        return max(0.0, self.gap + (beyond if self.inside else -beyond))
+
+
 class PlaceBounds(NamedTuple):
     """Bounds on the camera's position: lowest z, and the clearance from subjects, metres.
 
     drawn : the preferred pose, kept as far as the picture allows (viewpoint Eq. 10), or None
+    solids : what else the camera keeps clear of
     """
 
     floor: float
     near: float
     drawn: PreferredPose | None = None
+    solids: tuple[KeptSolid, ...] = ()
 
 
 class RequiredView(NamedTuple):
@@ -59,6 +76,7 @@ class RequiredView(NamedTuple):
     centre : W, m; shape : at that time
     uv : place on screen; size : of its outline, over the frame's height
     azimuth : compass bearing from it to the camera, rad; elevation : of the camera above it, rad
+    occluders : convex solids that the line of sight passes beside
     """
 
     centre: Vec3
@@ -67,6 +85,7 @@ class RequiredView(NamedTuple):
     size: float | None = None
     azimuth: float | None = None
     elevation: float | None = None
+    occluders: tuple[Solid, ...] = ()
 
     @property
     def whole(self) -> bool:
@@ -278,11 +297,25 @@ def _residuals(
         if s.elevation is None:
             residuals.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
         residuals.append(HARD_WEIGHT * max(0.0, bounds.near - s.shape.gap(offset)))
+        residuals += [HARD_WEIGHT * _hidden(eye, s, occluder) for occluder in s.occluders]
+    residuals += [HARD_WEIGHT * solid.lack(eye) for solid in bounds.solids]
     residuals += _off_pose(pose, bounds.drawn, subjects)
     if previous is not None:
         residuals += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, previous.kept, strict=True)]
         residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.largest_step))
     return residuals
+
+
+def _hidden(eye: Vec3, subject: RequiredView, occluder: Solid) -> float:
+    """Return by how much a line of sight lacks the subject's radius beside an occluder, over that radius.
+
+    The line ends where it meets the subject, so that what stands behind it does not count.
+    """
+    x, y, z = offset = minus(subject.centre, eye)
+    radius = max(subject.shape.radius, 1e-3)
+    share = max(0.0, 1.0 - radius / max(hypot(*offset), 1e-9))
+    end = (eye[0] + share * x, eye[1] + share * y, eye[2] + share * z)
+    return 1.0 - gap_beside(occluder, eye, end, radius) / radius
 
 
 def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[RequiredView]) -> Residuals:

@@ -5,9 +5,10 @@ from math import atan2, ceil, hypot
 
 from shotc.geom.vec import Vec3, plus
 from shotc.geom.viewpoint import Lens, PlaceBounds, PreferredPose, RequiredView
+from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
-from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
+from shotc.ir.hidden import hidden_by_surfaces, kept_solids, occluders_of, standing_before, without_room
 from shotc.ir.ideal import ideal_place, offset_at
 from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
@@ -16,7 +17,9 @@ from shotc.ir.target import Target
 KNOT_S = 0.5  # seconds between the knots of a course
 CHANGING_KNOT_S = 0.25  # the same where setpoints change the requirements
 FEWEST, MOST = 8, 240  # pieces of a course
-BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged
+BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged, if anything moves
+
+LOST_SHARE = 0.5  # hidden share of a subject from which on it counts as lost
 LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
 
@@ -43,14 +46,17 @@ def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> PlaceBound
 class FramedScene:
     """The inputs for the course of one framing."""
 
-    def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
+    def __init__(self, mission: MissionIR, shot: Shot, start: float, *, past: bool = False) -> None:
+        """Past : whether viewpoints keep clear of solids, and look past what may hide a subject."""
         duration = shot.timing.duration or 0.0
         knot = CHANGING_KNOT_S if any(s.setpoints for s in shot.subjects) else KNOT_S
         pieces = int(min(MOST, max(FEWEST, ceil(duration / knot))))
-        self.mission, self.shot, self.start = mission, shot, start
+        self.mission, self.shot, self.start, self.past = mission, shot, start, past
         self.drone = mission.drone(shot.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
-        self.looks = tuple(start + duration * i / BEARING_SAMPLES for i in range(BEARING_SAMPLES + 1))
+        moves = any(s.setpoints for s in shot.subjects) or any(t.track is not None for t in mission.targets)
+        looks = BEARING_SAMPLES if moves else 0
+        self.looks = tuple(start + duration * i / max(1, looks) for i in range(looks + 1))
         self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
         self.near = None if shot.ideal is None else shot.ideal.near
 
@@ -63,10 +69,13 @@ class FramedScene:
 
     def room_at(self, t: float) -> PlaceBounds:
         """Return the bounds on the camera at a mission time, with its preferred pose."""
+        bounds = (
+            self.room._replace(solids=kept_solids(self.mission, self.drone, t)) if self.past else self.room
+        )
         if self.near is None:
-            return self.room
+            return bounds
         drawn = PreferredPose(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
-        return self.room._replace(drawn=drawn)
+        return bounds._replace(drawn=drawn)
 
     def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> PlaceBounds:
         """Return the bounds on a camera that keeps an offset from a target, for the target's lowest position.
@@ -85,7 +94,13 @@ class FramedScene:
 
     def required_views(self, subjects: Sequence[Subject], t: float) -> tuple[RequiredView, ...]:
         """Return all subjects with their required appearance at a mission time."""
-        return tuple(required_view_at(self.mission, s, self.start, t) for s in subjects)
+        views = [required_view_at(self.mission, s, self.start, t) for s in subjects]
+        if self.past:
+            views = [
+                view._replace(occluders=occluders_of(self.mission, s.target, t))
+                for s, view in zip(subjects, views, strict=True)
+            ]
+        return tuple(views)
 
     def comes_from(self, subject: Vec3) -> float:
         """Return the bearing from a subject to the drone's position before the shot, rad."""
@@ -108,15 +123,28 @@ class FramedScene:
 
     def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
         """Return the hidden share of the subjects, 0 to 1: middles weigh one half, each side one quarter."""
-        weights = (0.5, 0.25, 0.25)
-        hidden = 0.0
-        for s in self.shot.subjects:
-            surfaces = hidden_by_surfaces(self.mission, s.target, eyes)
-            for (t, eye), share in zip(eyes, surfaces, strict=True):
-                before = standing_before(self.mission, s.target, eye, t)
-                solids = sum(w for w, obstacle in zip(weights, before, strict=True) if obstacle is not None)
-                hidden += max(solids, share)
+        hidden = sum(sum(self._covered(s, eyes)) for s in self.shot.subjects)
         return hidden / (len(eyes) * len(self.shot.subjects))
+
+    def lost(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
+        """Return the largest share of places, over the subjects, from which half of one is hidden.
+
+        It is 0 if the shot allows its subjects to be hidden.
+        """
+        if hidden_on_purpose(self.shot):
+            return 0.0
+        covered = (self._covered(s, eyes) for s in self.shot.subjects)
+        return max(sum(share >= LOST_SHARE for share in shares) / len(eyes) for shares in covered)
+
+    def _covered(self, subject: Subject, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
+        """Return the hidden share of a subject from each place, 0 to 1."""
+        weights = (0.5, 0.25, 0.25)
+        shares = hidden_by_surfaces(self.mission, subject.target, eyes)
+        for i, (t, eye) in enumerate(eyes):
+            before = standing_before(self.mission, subject.target, eye, t)
+            solids = sum(w for w, obstacle in zip(weights, before, strict=True) if obstacle is not None)
+            shares[i] = max(solids, shares[i])
+        return shares
 
     def _stands_before(self, eye: tuple[float, Vec3]) -> bool:
         """Return whether a solid is before the middle or a side of a subject."""

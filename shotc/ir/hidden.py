@@ -7,8 +7,9 @@ from math import hypot
 
 from shotc.geom.line_of_sight import crosses
 from shotc.geom.shapes import bodies_of, touch
-from shotc.geom.solids import signed_distance
+from shotc.geom.solids import Solid, convex_parts, signed_distance
 from shotc.geom.vec import Vec3, minus, plus
+from shotc.geom.viewpoint import KeptSolid
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import GROUND, Owner, mesh_owner, target_owner, zone_owner
@@ -56,6 +57,14 @@ def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Ite
             yield target_owner(target), lack
 
 
+def kept_solids(mission: MissionIR, drone: Drone, t: float) -> tuple[KeptSolid, ...]:
+    """Return the zones and targets that a drone keeps clear of at time t, with its distance from each."""
+    need = mission.rules.beside_target(drone.radius)
+    zones = [KeptSolid(zone.solid, zone.keep == "in", drone.radius) for zone in mission.zones]
+    targets = [KeptSolid(target.kept_clear_at(t), False, need) for target in mission.targets]
+    return (*zones, *targets)
+
+
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
     """Return the name of an occluder between a camera and a target's middle or one of its sides, or None.
 
@@ -99,17 +108,28 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     """
     target = mission.target(name)
     x, y, z = target.at(t)
+    solids = tuple(_occluding(mission, target, t))
     level = max(hypot(x - eye[0], y - eye[1]), 1e-9)
     across = (-(y - eye[1]) / level, (x - eye[0]) / level)
     width = target.shape_at(t).half_width(across)
     offset = (across[0] * width, across[1] * width)
     points = [(x, y, z), (x + offset[0], y + offset[1], z), (x - offset[0], y - offset[1], z)]
-    solids = [(z.name, z.solid) for z in mission.opaque_zones]
-    one = mission.one_with(name)
-    others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))
-    solids += [(o.name, o.solid_at(t)) for o in others]
     for p in points:
         yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
+
+
+def occluders_of(mission: MissionIR, name: str, t: float) -> tuple[Solid, ...]:
+    """Return the convex parts of the solids that may hide a target at time t."""
+    solids = _occluding(mission, mission.target(name), t)
+    return tuple(part for _, solid in solids for part in convex_parts(solid))
+
+
+def _occluding(mission: MissionIR, target: Target, t: float) -> Iterator[tuple[str, Solid]]:
+    """Yield the solids that may hide a target at time t, with their names."""
+    yield from ((zone.name, zone.solid) for zone in mission.opaque_zones)
+    one = mission.one_with(target.name)
+    others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))
+    yield from ((o.name, o.solid_at(t)) for o in others)
 
 
 def _parts_of_one(a: Target, b: Target, t: float) -> bool:

@@ -123,7 +123,8 @@ SHOWN: tuple[CodeInfo, ...] = (
         "a shot shows its subject in fewer than half of its frames",
         "A shot has a subject so that it is seen. Here something covers more than half of its outline in "
         "most of the frames: a keep-out zone, terrain, a scene, another target or another drone (V031 "
-        "is for less). The notes name what hides how much of it, and how often. Film from another side "
+        "is for less). The notes name what hides how much of it, and how often. A framing is placed where its "
+        "subjects are visible, if it leaves such a place free; else a note says so. Film from another side "
         "or from higher up, or move what hides it. If it is intended, as with a zone that can be looked "
         "through, write `allow: [hidden-subject]` in the shot, or under `rules` for the whole mission.",
         _WALL.replace("EAST", "0"),

@@ -8,11 +8,13 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.coverage import HALF_SHARE, coverage, covered_by_parts
+from shotc.ir.framed import course_of
 from shotc.ir.hiding_surfaces import NamedParts, parts_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of
 from shotc.ir.owners import mesh_owner
 from shotc.ir.parked import bodies
+from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
 
@@ -41,6 +43,14 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
             often = float((share > 1.0 - HALF_SHARE).mean())
             most = f"{what} hides up to {100 * share.max():.3g} % of it"
             yield f"{most}, and more than half in {100 * often:.3g} % of the frames"
+
+
+def nowhere_seen(mission: MissionIR, phase: Phase) -> Iterator[str]:
+    """Yield that a framing was tried from all round, if no place was found that shows its subjects."""
+    shot = mission.shot(str(phase.shot))
+    framed = shot.ideal is not None and shot.ideal.framed
+    if framed and course_of(mission, shot, phase.start).lost > HALF_SHARE:
+        yield "places all round, as far as the framing leaves them free, were tried: none shows it"
 
 
 def _by_name(

@@ -18,7 +18,7 @@ from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.energy import energy_note
 from shotc.passes.verify.fleets.burning import PYRO
 from shotc.passes.verify.fleets.pyro_advice import pyro_advice
-from shotc.passes.verify.hidden import hidden_by
+from shotc.passes.verify.hidden import hidden_by, nowhere_seen
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
 from shotc.passes.verify.passing import reported_passes
@@ -247,12 +247,15 @@ def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
         "V031": f"hidden by up to {share} of its outline in",
         "V050": f"hidden by more than half in {share} of",
     }[code]
-    by = () if code == "V030" else hidden_by(ir, claim, target)
+    phase = _phase_of(ir, claim)
+    by = [] if code == "V030" else list(hidden_by(ir, claim, target))
+    if code == "V050" and phase is not None:
+        by += nowhere_seen(mission, phase)
     return Diagnostic(
         code,
         f"{target} is {state} shot `{claim.shot}`",
         labels=(mission.origins.key(claim.path),),
-        notes=(*_notes(claim, _phase_of(ir, claim)), *by),
+        notes=(*_notes(claim, phase), *by),
         help=_LOST_HELP[code],
     )
 

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from shotc.geom.line_of_sight import crosses
+from shotc.geom.line_of_sight import crosses, gap_beside
 from shotc.geom.solid_arrays.segments import blocks
-from shotc.geom.solids import Cylinder, Prism, Solid, box
+from shotc.geom.solids import Cylinder, Prism, Solid, box, signed_distance
 
 SOLIDS = (
     (Cylinder((1.0, 0.5), 2.0, 0.0, 3.0), (1.0, 0.5)),
@@ -48,3 +48,37 @@ def test_a_line_along_a_wall_is_met_where_the_wall_is_and_not_on_its_way_beyond(
     assert crosses(room, (-3.0, 0.0, 1.0), (1.0, 0.0, 1.0))
     assert not crosses(room, (-3.0, 0.0, 1.0), (-1.0, 0.0, 1.0))
     assert not crosses(room, (-3.0, 0.0, 1.0), (-3.0, 0.0, 2.0))  # upright, in the wall's line
+
+
+SHARES = np.linspace(0.0, 1.0, 201)
+
+
+def least_distance(solid: Solid, a, b) -> float:
+    """Return the least signed distance of a segment's sampled points from a solid."""
+    return min(signed_distance(solid, tuple(np.add(a, s * np.subtract(b, a)))) for s in SHARES)
+
+
+@pytest.mark.slow
+@given(a=point, b=point, which=st.integers(0, 1))
+def test_a_gap_is_positive_where_a_line_passes_and_never_more_than_its_distance(a, b, which) -> None:
+    assume(np.hypot(b[0] - a[0], b[1] - a[1]) > 0.1)
+    solid, _ = SOLIDS[which]
+    gap, away = gap_beside(solid, a, b, 100.0), least_distance(solid, a, b)
+    assert gap <= away + 1e-9
+    if isinstance(solid, Prism) and abs(gap) > 1e-9:
+        assert (gap > 0.0) == (not crosses(solid, a, b))
+
+
+@pytest.mark.parametrize("scale", [1.0, 1000.0])
+@pytest.mark.parametrize(("aside", "height", "gap"), [(3.0, 1.0, 1.0), (0.5, 4.0, 1.0), (0.5, 1.0, -1.5)])
+def test_a_gap_beside_a_cylinder_counts_from_its_side_or_its_top(scale, aside, height, gap) -> None:
+    """The cylinder has a radius of 2 and is 3 high; the line passes it aside of its axis."""
+    solid = Cylinder((0.0, 0.0), 2.0 * scale, -2.0 * scale, 3.0 * scale)
+    a, b = (-9.0 * scale, aside * scale, height * scale), (7.0 * scale, aside * scale, height * scale)
+    assert gap_beside(solid, a, b, 100.0 * scale) == pytest.approx(gap * scale)
+    assert gap_beside(solid, a, b, 0.4 * scale) == pytest.approx(min(gap, 0.4) * scale)
+
+
+def test_a_gap_beside_a_zone_of_any_height_counts_from_its_sides() -> None:
+    tall = Cylinder((0.0, 0.0), 2.0, 0.0, float("inf"))
+    assert gap_beside(tall, (-9.0, 3.0, 500.0), (9.0, 3.0, 0.0), 100.0) == pytest.approx(1.0)

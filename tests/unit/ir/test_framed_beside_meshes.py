@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.surface.ground import ground_of
-from shotc.ir.framed import StartedFraming, course_of
+from shotc.ir.framed import course_of
+from shotc.ir.framed_course import StartedFraming
 from shotc.ir.hidden import hidden_by_surfaces, hides, lacks
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import Terrain
@@ -81,8 +82,9 @@ def test_of_bearings_none_of_which_is_clear_the_one_that_hides_least_is_taken():
     wall = np.concatenate(
         [turned(house(3.0, 2.0, 9.0, 9.5), a, (4 * np.sin(a), -4 * np.cos(a))) for a in RING]
     )
-    beside = with_meshes(square(), wall)
-    found, plain = course(beside), course(square())
+    level = ALONE.replace("size", "view: {elevation: 5 deg}, size")
+    beside = with_meshes(square(level), wall)
+    found, plain = course(beside), course(square(level))
     eyes = [(20.0, plain.poses[0][:3])]
     assert 0.0 < found.hidden < hidden_by_surfaces(beside, "statue", eyes)[0]
 

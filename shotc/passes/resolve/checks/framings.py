@@ -12,7 +12,8 @@ from shotc.geom.pose_search import Pose
 from shotc.geom.vec import wrapped
 from shotc.geom.viewpoint import RequiredView, SubjectAppearance, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
-from shotc.ir.framed import StartedFraming, course_of
+from shotc.ir.framed import course_of
+from shotc.ir.framed_course import StartedFraming
 from shotc.ir.framed_scene import lens_of, required_view_at
 from shotc.ir.hidden import lacks
 from shotc.ir.keyed import near_at

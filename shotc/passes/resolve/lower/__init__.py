@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.drone import Drone
-from shotc.ir.framed import StartedFraming
+from shotc.ir.framed_course import StartedFraming
 from shotc.ir.ground import GroundHeight, flat
 from shotc.ir.mission import GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance

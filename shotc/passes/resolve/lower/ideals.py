@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from shotc.ir.begins import first_start
-from shotc.ir.framed import StartedFraming, course_of
+from shotc.ir.framed import course_of
+from shotc.ir.framed_course import StartedFraming
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import MissionIR
 

@@ -293,7 +293,7 @@ def test_a_view_into_a_zone_is_told_and_a_free_one_goes_beside_it() -> None:
 def test_what_a_place_lacks_counts_from_the_drones_side_of_a_zone(zone: str, surface: float) -> None:
     """The camera is deep inside a zone to keep out of, or far outside of one to stay in."""
     world = f"world: {{zones: {{hall: {zone}}}}}\n"
-    mission = text("target: tower, size: 0.8, view: {azimuth: 180 deg}", world=world)
+    mission = text("target: tower, size: 0.8, view: {azimuth: 180 deg, elevation: 0 deg}", world=world)
     (fault,) = (d for d in told(mission) if d.code == "M032")
     numbers = re.search(r"at \[30\.0, ([\d.]+), 12\.0\], where zone `hall` lacks ([\d.]+) m", fault.notes[0])
     assert numbers is not None
