@@ -109,3 +109,11 @@ def test_a_curve_is_not_written_to() -> None:
     for array in (CURVE.breaks, CURVE.ctrl):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
+
+
+def test_lists_of_numbers_become_arrays_that_nobody_can_change() -> None:
+    curve = Piecewise([0, 2], [[[1], [3]]])  # type: ignore[arg-type]
+    assert curve(np.array([1.0])).tolist() == [[2.0]]
+    for array in (curve.breaks, curve.ctrl):
+        assert array.dtype == np.float64
+        assert not array.flags.writeable

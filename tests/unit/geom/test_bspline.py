@@ -16,6 +16,7 @@ from shotc.geom.bspline import (
     control_rows,
     count,
     energy_rows,
+    extraction,
     greville,
     hull_rows,
     restrict,
@@ -132,3 +133,7 @@ def test_the_curve_stays_in_the_hull_of_its_points(steps, seed):
         assert (
             (piece(s) @ directions.T).max(axis=0) <= (curve.ctrl[i] @ directions.T).max(axis=0) + 1e-12
         ).all()
+
+
+def test_what_all_rows_of_a_spline_share_cannot_be_changed() -> None:
+    assert not extraction(np.array([0.0, 1.0, 3.0])).flags.writeable

@@ -43,3 +43,8 @@ def test_a_row_takes_as_many_as_stand_within_the_distance() -> None:
         tuple(order[k % 3] for k in range(9)) for order in ((0, 1, 2), (0, 2, 1), (1, 0, 2))
     }
     assert coloured([(0.0, 0.0)], 1.5) == (0,)
+
+
+@pytest.mark.parametrize(("apart", "count"), [(1.5 - 1e-4, 2), (1.5 - 1e-7, 1)])
+def test_a_pair_shares_a_colour_only_if_no_more_than_rounding_lacks(apart: float, count: int) -> None:
+    assert len(set(coloured([(0.0, 0.0), (apart, 0.0)], 1.5))) == count

@@ -54,3 +54,9 @@ def test_what_leaves_no_time_to_speed_up_has_no_parts() -> None:
     assert parts_of(0.5) is None
     assert parts_of(1.02) is None
     assert parts_of(15 / 8) == 1
+
+
+def test_a_step_has_as_many_parts_as_its_speed_needs_and_none_beyond_forty() -> None:
+    assert parts_of(1.26) == 5
+    assert parts_of(40.0 / 39.0 + 1e-9) == 40
+    assert parts_of(41.0 / 40.0 + 1e-9) is None

@@ -160,3 +160,10 @@ def test_a_margin_changes_with_the_camera_its_turn_and_its_zoom(aspect: float, w
     assert margin_rate(20.0, 3.0, 0.0, 0.0, aspect) == 3.0
     assert margin_rate(20.0, 0.0, 0.5, 0.0, aspect) == 10.0
     assert margin_rate(20.0, 0.0, 0.0, 0.1, aspect) == pytest.approx(20.0 * 0.05 * wider)
+
+
+def test_a_target_right_before_the_camera_has_a_place_in_the_picture_and_one_behind_it_has_none() -> None:
+    look = cameras([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], [0.0, 0.0], [0.0, 0.0])
+    seen = frames(look, (0.5, 0.0, 1.0), CylinderShape(0.1, 0.1))
+    assert (seen.u[0], seen.v[0]) == (0.0, 0.0)
+    assert np.isnan([seen.u[1], seen.v[1]]).all()

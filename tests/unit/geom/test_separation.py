@@ -101,6 +101,14 @@ def test_two_fleets_on_clocks_of_their_own() -> None:
     assert turned.attained == pytest.approx(2.0, abs=1e-6)
 
 
+def test_a_fleet_stands_where_the_last_of_its_pieces_ends() -> None:
+    early, late = np.array([0.0, 1.0, 2.0, 3.0]), np.array([0.0, 4.0, 9.0])
+    one = straight(early, [0.0, 0.0, 5.0], [4.0, 0.0, 0.0])[None]
+    other = straight(late, [12.0, 40.0, 5.0], [0.0, -4.0, 0.0])[None]
+    found = closest_between(early, one, late, other, BALL)
+    assert (found.attained, found.time) == pytest.approx((4.0, 9.0), abs=1e-5)
+
+
 def test_one_drone_alone_is_near_nobody() -> None:
     breaks = np.array([0.0, 1.0])
     assert closest(breaks, np.zeros((1, 4, 3)), BALL).proven == np.inf

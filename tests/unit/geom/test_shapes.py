@@ -213,3 +213,18 @@ def test_the_cylinder_about_a_group_is_the_least_one_about_its_centre() -> None:
 def test_a_wider_box_has_every_upright_side_farther_out_and_is_no_higher() -> None:
     box = BoxShape(6.0, 2.0, 3.0, (0.6, 0.8)).wider(0.5)
     assert (box.length, box.width, box.height, box.ahead) == (7.0, 3.0, 3.0, (0.6, 0.8))
+
+
+@pytest.mark.parametrize("around", [0.3, 2.0])
+@pytest.mark.parametrize("above", [-0.5, 0.0, 0.8])
+def test_a_group_is_seen_from_the_first_of_its_parts_to_the_last(around: float, above: float) -> None:
+    parts = (
+        Part((3.0, -4.0, 2.0), CylinderShape(1.0, 3.0)),
+        Part((-5.0, 1.0, -1.0), BoxShape(2.0, 4.0, 1.0)),
+    )
+    shape = GroupShape(parts)
+    camera, offset = seen_from((30.0, around, above, 0.1, -0.1))
+    points = tuple((surface(shape) + offset).T)
+    u, v, depth = camera.project(points)
+    assert shape.bounds(camera, offset) == pytest.approx((u.min(), u.max(), v.min(), v.max()), abs=1e-5)
+    assert shape.nearest_depth(camera, offset) == pytest.approx(depth.min(), abs=1e-4)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.geom.solids import Prism, convex_parts, segments_cross, signed_area
+from shotc.geom.solids import Cylinder, Prism, convex_parts, segments_cross, signed_area
+from shotc.geom.vec import Vec3
 
 LONG = ((0.0, 0.0), (4.0, 0.0))
 
@@ -46,3 +47,16 @@ def test_a_footprint_is_one_part_unless_a_corner_of_it_points_inside(points, par
     areas = [signed_area(part.points) for part in split if isinstance(part, Prism)]
     assert sum(areas) == pytest.approx(signed_area(points))
     assert min(areas) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("p", "nearest"),
+    [
+        ((7.0, 8.0, 9.0), (4.0, 4.0, 5.0)),
+        ((1.5, 0.0, 3.0), (1.5, 0.0, 3.0)),
+        ((1.0, 0.0, -7.0), (1.0, 0.0, 2.0)),
+        ((-9.0, 0.0, 4.0), (-4.0, 0.0, 4.0)),
+    ],
+)
+def test_the_nearest_point_of_a_cylinder(p: Vec3, nearest: Vec3) -> None:
+    assert Cylinder((1.0, 0.0), 5.0, 2.0, 5.0).closest(p) == pytest.approx(nearest)

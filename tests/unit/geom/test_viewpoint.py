@@ -123,6 +123,15 @@ def test_a_free_elevation_is_level_or_as_little_above_as_the_ground_asks() -> No
     assert size_from(low, LENS, offset) == pytest.approx(0.3, rel=1e-6)
 
 
+def test_one_subject_is_shown_where_and_as_large_as_it_is_asked_for() -> None:
+    asked = MAN._replace(uv=(0.3, -0.2), size=0.3, azimuth=0.4, elevation=0.2)
+    pose, cost = viewpoint((asked,), LENS, ROOM, first_pose([asked], LENS, ROOM, 0.0))
+    seen = judged(pose, LENS, asked)
+    assert seen is not None
+    assert (seen.screen, seen.size, seen.angle) == pytest.approx((0.0, 0.3, 0.0), abs=1e-4)
+    assert cost < 1e-6
+
+
 @pytest.mark.long
 @settings(deadline=None, max_examples=40)
 @given(

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from shotc.geom.surface import cloud
-from shotc.geom.surface.cloud import cloud_of, median_spacing
+from shotc.geom.surface.cloud import cloud_of, median_spacing, splats
 from shotc.geom.surface.tree import surface_of
 
 
@@ -35,3 +35,10 @@ def test_a_thinned_cloud_stands_for_every_point(most, monkeypatch):
     assert len(thin.surface) <= most
     away = cKDTree(thin.surface.triangles[:, 0]).query(points)[0].max()
     assert 0.0 < away <= thin.moved
+
+
+def test_a_cell_is_represented_by_the_middle_of_its_points() -> None:
+    points = np.array([[1.0, 2.0, 3.0], [1.5, 2.5, 4.0], [9.0, 9.0, 9.0]])
+    found = splats(points, 2.0, 10)
+    assert found.middle.tolist() == [[1.25, 2.25, 3.5], [9.0, 9.0, 9.0]]
+    assert (found.first.tolist(), found.size) == ([0, 2], 2.0)

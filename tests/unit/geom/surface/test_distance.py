@@ -273,3 +273,10 @@ def test_pieces_of_any_degree_are_bound():
 def _quad(size: float) -> np.ndarray:
     s = 0.5 * size
     return np.array([[[-s, -s, 0], [s, -s, 0], [s, s, 0]], [[-s, -s, 0], [s, s, 0], [-s, s, 0]]], dtype=float)
+
+
+def test_a_surface_cannot_be_changed_by_who_looks_at_it():
+    surface = surface_of(sphere(2.0, 2))
+    assert len(surface.low) > 1
+    for array in (surface.triangles, surface.source, *surface.low, *surface.high):
+        assert not array.flags.writeable

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.surface import hits
 from shotc.geom.surface.boards import Billboards
 from shotc.geom.surface.hits import NOTHING, first_hits
 from shotc.geom.surface.tree import surface_of
@@ -97,3 +98,17 @@ def test_a_triangle_without_area_is_no_point():
         assert not np.isfinite(first_hits(surface_of(ends[which][None]), towards, 6, disc=3.0).share).any(), (
             which
         )
+
+
+def test_frames_that_are_looked_at_one_after_another_are_those_of_all_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    random = np.random.default_rng(9)
+    surface, boards = surface_of(some_triangles(random, 80)), some_boards(random, 7)
+    whole = first_hits(surface, boards, 4)
+    monkeypatch.setattr(hits, "FRAMES_AT_ONCE", 3)
+    monkeypatch.setattr(hits, "PAIRS_AT_ONCE", 5)
+    parts = first_hits(surface, boards, 4)
+    assert np.array_equal(parts.share, whole.share)
+    assert np.array_equal(parts.triangle, whole.triangle)
+    assert np.isfinite(whole.share[3:]).any()

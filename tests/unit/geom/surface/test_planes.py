@@ -108,6 +108,15 @@ def test_a_chord_beside_a_wall_needs_one_plane_however_many_triangles_the_wall_h
     assert with_margin.offset[0] == pytest.approx(1.5)
 
 
+def test_a_chord_through_a_triangle_is_as_deep_as_its_lower_end_is_below_it() -> None:
+    turn = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+    triangle = np.array([[-9.0, -7.0, 0.0], [8.0, -9.0, 0.0], [1.0, 9.0, 0.0]])
+    chord = np.array([[0.0, 0.0, 1.0], [0.3, 0.4, -0.2]])
+    normal, gap = separate((triangle @ turn)[None], (chord @ turn)[None])
+    assert gap == pytest.approx([-0.2])
+    assert normal[0] == pytest.approx(turn[2])
+
+
 def test_what_is_far_needs_no_plane():
     ball = surface_of(np.asarray(trimesh.creation.icosphere(2, radius=3.0).triangles))
     found = half_spaces(ball, np.array([[[20.0, 0, 0], [20.0, 5, 0]]]), 1.0, REACH, some)
@@ -217,6 +226,17 @@ def test_the_ground_plane_of_a_slope_is_the_slope():
     assert found.offset[0] == pytest.approx(1.5 / np.hypot(0.5, 1), abs=1e-9)
     with_margin = ground_planes(ground_of(slope.corners, slope.faces), hull, 2.0, 1.5, some)
     assert with_margin.offset[0] == pytest.approx(2.0 / np.hypot(0.5, 1), abs=1e-9)
+
+
+def test_ground_beside_the_box_of_a_piece_lifts_its_plane_only_by_what_is_inside():
+    """A valley of two faces that rise far beyond the box: the plane is level with the edges of the box."""
+    edge = np.array([[0.0, -50.0, 0.0], [0.0, 50.0, 0.0]])
+    corners = np.array([*edge, [80.0, 0.0, 80.0], [-80.0, 0.0, 80.0]])
+    valley = ground_of(corners, np.array([[0, 2, 1], [0, 1, 3]]))
+    hull = np.array([[[-2.0, -1.0, 9.0], [2.0, -1.0, 9.0], [0.0, 1.0, 9.0]]])
+    found = ground_planes(valley, hull, 1.0, 0.5, nothing)
+    assert found.normal[0] == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
+    assert found.offset[0] == pytest.approx(3.5)
 
 
 def test_where_there_is_no_ground_there_is_no_ground_plane():

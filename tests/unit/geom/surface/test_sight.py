@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.surface import sight
-from shotc.geom.surface.boards import Billboards, billboards, facing_cylinders
+from shotc.geom.surface.boards import Billboards, billboards, facing_cylinders, upright
 from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
@@ -104,6 +104,14 @@ def test_a_target_seen_from_straight_above_has_its_width():
     assert np.linalg.norm(boards.right) == pytest.approx(0.8)
     assert np.linalg.norm(boards.up) == pytest.approx(0.8)
     assert boards.corner + 0.5 * (boards.right + boards.up) == pytest.approx(np.array([[3.0, 4.0, 1.0]]))
+
+
+def test_an_upright_rectangle_touches_the_side_of_its_cylinder_that_faces_the_eye():
+    eye, centre = np.array([[13.0, 24.0, 50.0]]), np.array([[10.0, 20.0, 4.0]])
+    board = upright(eye, centre, 2.5, 3.0)
+    assert board.corner + 0.5 * (board.right + board.up) == pytest.approx(np.array([[11.5, 22.0, 4.0]]))
+    assert np.abs(board.right) == pytest.approx(np.array([[4.0, 3.0, 0.0]]))
+    assert board.up.tolist() == [[0.0, 0.0, 3.0]]
 
 
 def test_a_target_seen_from_its_own_height_is_upright():

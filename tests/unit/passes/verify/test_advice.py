@@ -6,7 +6,7 @@ import pytest
 
 from shotc.ir.phases import Phase
 from shotc.passes.verify.advice import Rule, advice
-from shotc.passes.verify.report import RULES
+from shotc.passes.verify.report import RULES, rule_of, state_of
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 
@@ -38,7 +38,26 @@ def test_what_no_time_helps_is_given_none() -> None:
 
 def test_every_rate_falls_with_the_time_and_every_higher_derivative_with_its_power() -> None:
     orders = {"speed": 1, "climb": 1, "descent": 1, "rate": 1, "acceleration": 2, "jerk": 3}
-    found = {name: rule.power for name, rule in RULES.items() if name.split()[-1] in orders}
+    mission = orbit_plan().trajectory.keyframes.mission
+    found = {name: rule_of(name, mission).power for name in RULES if name.split()[-1] in orders}
     assert len(found) > 10
     assert found == {name: pytest.approx(1 / orders[name.split()[-1]]) for name in found}
     assert not any(rule.power for name, rule in RULES.items() if name not in found)
+
+
+@pytest.mark.parametrize(
+    ("constraint", "shot", "code", "told"),
+    [
+        ("zone mast", None, "V007", "the distance of the body from zone mast"),
+        ("target tower", None, "V010", "the distance of the body from target tower"),
+        ("zone field", None, "V008", "the margin of the body inside zone field"),
+        ("distance from its path", "look", "V044", "distance from its path of shot `look`"),
+        ("ground clearance", None, "V009", "ground clearance"),
+    ],
+)
+def test_a_broken_claim_is_told_by_what_it_is_about(
+    constraint: str, shot: str | None, code: str, told: str
+) -> None:
+    speed = next(c for c in orbit_plan().certificate if c.constraint == "speed")
+    claim = replace(speed, constraint=constraint, shot=shot, worst=1.0, limit=2.0, unit="m", upper=False)
+    assert state_of(claim, code) == f"{told} is 1.000 m, at least 2.000 m is needed"

@@ -57,6 +57,12 @@ def test_what_stands_there_explains_as_much_as_it_takes_to_go_round_it() -> None
     assert in_the_way(one, EAST, placed=True) == {}
 
 
+def test_around_a_solid_that_is_wider_than_tall_the_detour_is_its_width() -> None:
+    one = flight(mast(2.0, radius=30.0))
+    body = one.drone.radius + NEAR_M
+    assert in_the_way(one, EAST) == {"zone mast": pytest.approx(60.0 + 2.0 * body)}
+
+
 def test_a_fence_and_the_ground_explain_what_the_way_is_beyond_them() -> None:
     one = flight(mast(0.0, "in", 20.0), ground_clearance=29.0)
     body = one.drone.radius + NEAR_M

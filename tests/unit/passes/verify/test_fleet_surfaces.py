@@ -53,3 +53,13 @@ def test_a_drone_that_stands_for_many_pieces_is_there_once() -> None:
     ctrl = np.concatenate([ctrl, ctrl[5:]])
     kept = once(Pieces(np.arange(7.0), np.arange(7.0) + 1.0, ctrl))
     assert kept.low.tolist() == [0.0, 3.0, 4.0, 5.0, 6.0]
+
+
+@pytest.mark.parametrize("seeds", [1, 2, 3])
+def test_it_makes_no_difference_how_many_pieces_are_tried_first(
+    seeds: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(surfaces, "SEED_PIECES", seeds)
+    flown = level_or_not([[3.0, 9.0, 9.0, 3.0], [2.0, 9.0, 9.0, 0.9]])
+    found = near_surface(flown, surface_of(grid(np.zeros((24, 24)), 1.0).triangles), fine)
+    assert found.attained == pytest.approx(0.9, abs=GAP_M)

@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from shotc.ir.transits import TransitInterval
 from shotc.passes.verify import passing
 from shotc.passes.verify.passing import PLAY_M, ClosestPass
+from shotc.passes.verify.transits import ENDING
 
 
 def together(*passes: tuple[str, float]) -> list[tuple[Any, ClosestPass]]:
@@ -32,3 +34,32 @@ def test_each_rule_that_a_way_breaks_is_accepted_at_the_least_distance_of_its_pa
     assert f"transit_clearance: {{filmed: 0.00 m, other: {least} m}}" in found.help
     assert found.message == "cam passes near"
     assert found.notes == ("then", *["and near; then"] * 3)
+
+
+def test_the_pass_that_lacks_most_is_told_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    way = TransitInterval(0.0, 9.0, "b")
+    lacks = {"mast": 1.0, "house": 3.0, "tree": 2.0}
+    passes = {name: ClosestPass(name, (name,), way, 1.0, 9.0 - lack, 9.0) for name, lack in lacks.items()}
+    broken = {"holds": False, "hard": False, "subject": "cam"}
+    claims = tuple(SimpleNamespace(constraint=f"{name}{ENDING}", **broken) for name in lacks)
+    monkeypatch.setattr(passing, "_passes", lambda _, claim: [passes[claim.constraint.removesuffix(ENDING)]])
+    monkeypatch.setattr(passing, "_diagnostic", lambda _, together: [one.name for _, one in together])
+    (told,) = passing.reported_passes(SimpleNamespace(), claims)  # type: ignore[arg-type]
+    assert told == ["house", "tree", "mast"]
+
+
+@pytest.mark.parametrize(("needs", "tapers"), [(5.0, False), (4.995, False), (3.0, True)])
+def test_where_a_way_begins_or_ends_nearer_less_is_needed_and_told(needs: float, tapers: bool) -> None:
+    claim = SimpleNamespace(limit=5.0)
+    passed = ClosestPass("it", ("zones", "it"), TransitInterval(0.0, 9.0, "b"), 1.0, 1.0, needs)
+    assert ("less than 5 m" in passing._when(claim, passed)) is tapers  # type: ignore[arg-type]
+
+
+def test_a_required_clearance_is_refused_by_the_name_of_its_setting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(passing, "_labels", lambda *_: ())
+    ((claim, passed), *_) = together(("filmed", 2.0))
+    claim.limit, claim.hard = 5.0, True
+    passed = passed._replace(interval=TransitInterval(0.0, 9.0, None))
+    found = passing._refused(SimpleNamespace(), claim, passed)  # type: ignore[arg-type]
+    assert found.help.startswith("lower `transit_clearance.filmed` to 1.9")
+    assert "on the way home" in found.message

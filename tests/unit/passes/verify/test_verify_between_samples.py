@@ -47,12 +47,14 @@ def swayed(moves: dict[int, float]) -> Piecewise:
     return through([0.0, 0.5, 1.0, LENGTH], [EYE, there, EYE, EYE])
 
 
-def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> JudgedFlight:
+def flight(
+    curve: Piecewise, track: Track | None = None, aside: float = 0.0, off: float = 0.0
+) -> JudgedFlight:
     """A camera that films a post at one sample a second; what is wanted of it moves aside and back."""
     post = Target("post", POST, CylinderShape(1.0, 2.0), ("targets", "post"), track)
     of: MissionIR = replace(mission(rate=1.0), targets=(post,))
     zero = np.zeros((4, 2))
-    wanted = np.array([[ASIDE, 0.0], [ASIDE + aside, 0.0], [ASIDE, 0.0], [ASIDE, 0.0]])
+    wanted = np.array([[ASIDE + off, 0.0], [ASIDE + off + aside, 0.0], *[[ASIDE + off, 0.0]] * 2])
     reference = quintic_hermite(np.array([0.0, 0.5, 1.0, LENGTH]), wanted, zero, zero)
     flown = film("eye", curve)
     framed = (Reference("eyes", "post", 0.0, LENGTH, reference),)
@@ -107,6 +109,14 @@ def test_a_target_that_leaves_its_place_between_samples_is_not_closed(sway: str)
 
 def test_what_is_wanted_moves_between_samples_too() -> None:
     assert not errors_close(flight(still(EYE), aside=0.5), "eyes", "post", ENDS, 0.3)
+
+
+@pytest.mark.parametrize(("aside", "closes"), [(0.03, True), (0.1, False)])
+def test_an_error_near_its_limit_at_both_samples_leaves_little_for_what_is_between(
+    aside: float, closes: bool
+) -> None:
+    of = flight(still(EYE), aside=aside, off=0.25)
+    assert errors_close(of, "eyes", "post", ENDS, 0.3) is closes
 
 
 def test_a_tall_target_moves_in_the_frame_as_fast_as_its_end_does() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import pi
 
 import numpy as np
@@ -11,8 +12,17 @@ from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.path import CAM_YAW, X, Y
+from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight
-from shotc.passes.verify.course import BESIDE_S, _is_free, _off_course
+from shotc.passes.verify.course import (
+    BESIDE_S,
+    SWING_SHARE,
+    UNREPORTED_M,
+    _along,
+    _is_free,
+    _off_course,
+    _swing,
+)
 from shotc.passes.verify.explained import NEAR_M
 from tests.support.records import replace
 from tests.support.tampered_plans import MISSION, PLAN
@@ -94,3 +104,38 @@ def test_only_the_shot_itself_has_a_course() -> None:
     assert within == pytest.approx([0.0], abs=1e-6)
     assert beyond[0] > 0.05
     assert BESIDE_S < 1.0
+
+
+def claims(found: Iterable[Claim]) -> dict[str, Claim]:
+    return {claim.constraint: claim for claim in found}
+
+
+def test_a_free_keyframe_may_be_missed_by_a_share_of_its_distance_from_what_it_films() -> None:
+    first, *others = (replace(k, placed=False) for k in PLAN.keyframes.shots[0].keyframes)
+    x, y, z = first.at
+    keyframes = (replace(first, at=(x, y, z + 0.2)), *others)
+    flight = JudgedFlight(MISSION, MISSION.drones[0], PLAN.drones[0])
+    t = np.array([k.time for k in PLAN.drones[0].keyframes])
+    placed = replace(PLAN.keyframes.shots[0], keyframes=keyframes)
+    found = claims(_along(flight, placed, t, PLAN))["detour where it is free"]
+    (tower,) = MISSION.targets
+    far = np.linalg.norm(np.array([x, y, z + 0.2]) - tower.centre)
+    assert found.worst == pytest.approx(0.2 / far, rel=0.01)
+    assert found.holds
+
+
+def test_the_way_that_swings_most_for_its_length_is_told() -> None:
+    t = np.array([0.0, 50.0, 55.0, 60.0])
+    x = np.array([0.0, 100.0, 110.0, 120.0])
+    keyframes = tuple(replace(KEYFRAME, at=(a, 300.0, 40.0), placed=True, hold=0.0, time=None) for a in x)
+    placed = replace(PLAN.keyframes.shots[0], keyframes=keyframes)
+    value, first = np.zeros((4, 7)), np.zeros((4, 7))
+    value[:, :3] = [k.at for k in keyframes]
+    first[:, 0], first[-1, 1] = 2.0, 20.0  # it leaves the last chord to the side
+    curve = quintic_hermite(t, value, first, np.zeros((4, 7)))
+    bare = replace(MISSION, zones=(), targets=())
+    flight = JudgedFlight(bare, bare.drones[0], replace(PLAN.drones[0], curve=curve))
+    (found,) = _swing(flight, placed, t)
+    assert not found.holds
+    assert t[2] < found.time < t[3]
+    assert found.limit == pytest.approx(SWING_SHARE * 10.0 + UNREPORTED_M)

@@ -266,3 +266,18 @@ def test_the_least_energy_through_values_is_that_of_its_slopes(count: int) -> No
 def test_the_energy_of_a_straight_line_is_that_of_its_slope_alone() -> None:
     at = np.array([0.0, 1.0, 3.0])
     assert energy(at, 2.0, (0.5, 0.5)).of(0.5 * at, np.full(3, 0.5)) == pytest.approx(2.0 * 0.25 * 3.0)
+
+
+def test_of_two_ways_that_cost_the_same_one_is_flown_and_nothing_is_left_open() -> None:
+    """Half a turn goes as well to the left as to the right."""
+    found = solve_headings(task([0.0, pi]), "winding")
+    assert found.complete
+    assert abs(found.angles[1]) == pytest.approx(pi)
+
+
+def test_the_virtual_curve_begins_and_ends_with_the_asked_headings_to_the_last_bit() -> None:
+    problem = task([0.1, 1.3, 2.2, 0.7])
+    found = solve_headings(problem, "virtual")
+    assert found.curve is not None
+    at_keyframes = found.curve.ctrl[0, 0], *(found.curve(t) for t in problem.at[1:])
+    assert [float(one[0]) for one in at_keyframes] == found.angles.tolist()
