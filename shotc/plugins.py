@@ -183,7 +183,7 @@ def not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
 
 def forget() -> None:
     """Clear the caches of installed packages, so that the next call searches again."""
-    for remembered in (discover, shot_kinds, _installed):
+    for remembered in (discover, shot_kinds, _search, _installed):
         remembered.cache_clear()
 
 
@@ -209,9 +209,18 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> LoadedPlugins:
 
 
 @cache
+def _search() -> Any:
+    """Return the entry points of installed packages: EntryPoints, before Python 3.12 SelectableGroups.
+
+    The search reads a file of every installed package, so it is made once for all groups. For a package that
+    is found twice, it has those of the first.
+    """
+    return entry_points()
+
+
+@cache
 def _installed(group: str) -> tuple[EntryPoint, ...]:
-    """Return the entry points of installed packages in a group; for a package found twice, the first."""
-    return tuple(entry_points(group=GROUPS[group]))
+    return tuple(_search().select(group=GROUPS[group]))
 
 
 def _is_ours(entry: EntryPoint) -> bool:

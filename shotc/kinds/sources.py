@@ -7,6 +7,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFlight, Source, Sphere, Torus, Wave
 from shotc.kinds.base import Scene
 from shotc.kinds.effect_stack import effects_of
+from shotc.kinds.models.endings import FLIGHT_ENDINGS
 from shotc.kinds.moments import moment
 from shotc.kinds.pictures import DrawingSpec, FilesSpec, FlightSpec, PictureSpec, TextSpec, TransitionSpec
 
@@ -16,7 +17,6 @@ METRES = (".glb",)
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
 FONTS = (".ttf", ".otf", ".ttc")
 DRAWINGS = (".svg",)
-FLIGHTS = (".zip", ".skyc")
 
 
 def picture_of(
@@ -28,7 +28,9 @@ def picture_of(
     """
     path: KeyPath = (*scene.path, "frames")
     if isinstance(spec, FlightSpec):
-        strange = _unreadable(scene, [spec.flight], FLIGHTS, "the flight of a fleet", (*path, "flight"))
+        strange = _unreadable(
+            scene, [spec.flight], FLIGHT_ENDINGS, "the flight of a fleet", (*path, "flight")
+        )
         flown = Picture(RecordedFlight(spec.flight), "volume", None, None, 0.0, path)
         return flown if strange is None else [strange]
     if isinstance(spec, FilesSpec):

@@ -1,6 +1,8 @@
 """The common fields of all shots, and keyframes as a user writes them.
 
-A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``.
+A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``. The mappings that
+every shot may have are built on import: else pydantic would build them again for each kind that a mission
+uses.
 """
 
 from math import inf
@@ -50,7 +52,7 @@ _DURATION = Hinted(
 )
 
 
-class TimingSpec(Model):
+class TimingSpec(Model, defer_build=False):
     """The time of a shot; without any key it is ``auto``."""
 
     start: NonNegativeDuration | None = Field(
@@ -86,7 +88,7 @@ class TimingSpec(Model):
         return {"anyOf": [{"const": "auto"}, schema]}
 
 
-class RevealSpec(Model):
+class RevealSpec(Model, defer_build=False):
     """The visible share of a target at the start and at the end of a shot."""
 
     from_: Share = Field(alias="from", description="share of its outline that is free in the first frame")
@@ -100,7 +102,7 @@ class RevealSpec(Model):
         return self
 
 
-class RequireSpec(Model):
+class RequireSpec(Model, defer_build=False):
     """The promises of a shot; verification checks them."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("visible",), ("reveal",)), required=False),)
@@ -124,7 +126,7 @@ class RequireSpec(Model):
     )
 
 
-class RefineSpec(Model):
+class RefineSpec(Model, defer_build=False):
     """How refinement is used on a shot."""
 
     optional: Switch = Field(
@@ -132,7 +134,7 @@ class RefineSpec(Model):
     )
 
 
-class PhotosSpec(Model):
+class PhotosSpec(Model, defer_build=False):
     """Photos that a shot takes instead of a film."""
 
     every: Annotated[Photos, IntervalType()] = Field(

@@ -1,4 +1,4 @@
-"""The formats of meshes and point clouds by file ending. Plain Python, no numpy."""
+"""The formats of meshes, point clouds and recorded flights by file ending. Plain Python, no numpy."""
 
 from typing import Literal, NamedTuple
 
@@ -23,6 +23,9 @@ ENDINGS = {
     "las": Ending("z"),
     "laz": Ending("z"),
 }
+
+FLIGHT_ENDINGS = (".zip", ".skyc")
+"""Of recorded flights of a whole fleet."""
 
 METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "ft": 0.3048, "in": 0.0254}
 """Metres of a unit."""

@@ -15,7 +15,7 @@ from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.image_file import image_fault
-from shotc.kinds.sources import FLIGHTS
+from shotc.kinds.models.endings import FLIGHT_ENDINGS
 from shotc.kinds.svg import svg_fault
 from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
 from shotc.show.labels import key_of
@@ -97,7 +97,7 @@ def _where(picture: Picture) -> KeyPath:
 
 def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
     drawing = name.lower().endswith(".svg")
-    flight = name.lower().endswith(FLIGHTS)
+    flight = name.lower().endswith(FLIGHT_ENDINGS)
     most = MAX_TABLE_BYTES if drawing else LARGEST_FLIGHT_BYTES if flight else LARGEST_MESH_BYTES
     data = read_file(folder, origins, name, path, most)
     if isinstance(data, Diagnostic):

@@ -92,7 +92,8 @@ def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_W
     """Yield the positions in metres within a value; place : whether its field contains positions."""
     if isinstance(value, BaseModel):
         for name, field in type(value).model_fields.items():
-            yield from _in_metres(getattr(value, name), (*path, field.alias or name), place=_places(field))
+            if isinstance(part := getattr(value, name), BaseModel | dict | list | tuple):
+                yield from _in_metres(part, (*path, field.alias or name), place=_places(field))
     elif isinstance(value, dict):
         for key, item in value.items():
             yield from _in_metres(item, (*path, key), place=place)
