@@ -21,7 +21,6 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
-from shotc.ir.show import MANY_DRONES
 from shotc.ir.source import Autopilot, MissionSource
 from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
 from shotc.passes.resolve.checks.timing import waits_longer
@@ -43,7 +42,7 @@ from shotc.pipeline import (
 )
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
-from shotc.spec.presets import LARGE_OUTPUTS
+from shotc.spec.presets import LARGE_OUTPUTS, MANY_DRONES
 from shotc.spec.schema import json_schema as schema_of
 
 if TYPE_CHECKING:  # the base install has no numpy

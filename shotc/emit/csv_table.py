@@ -23,9 +23,9 @@ from shotc.ir.parked import bodies
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.sharpness import sharpness
-from shotc.ir.show import MANY_DRONES
 from shotc.ir.thrust import drawn, lean, thrust_to_weight
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
+from shotc.spec.presets import MANY_DRONES
 
 TRAJECTORY = (
     "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,"

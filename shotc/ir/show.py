@@ -10,9 +10,6 @@ from shotc.ir.effects import Color, Effect, Way
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.origin import KeyPath
 
-MANY_DRONES = 2000
-"""Number of drones above which tables and recordings of a show are made only on request."""
-
 
 class Apart(NamedTuple):
     """The separation of two drones of a fleet, centre to centre, at every instant.

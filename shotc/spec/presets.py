@@ -38,6 +38,8 @@ EMIT = ("csv", "mavlink", "storyboard", "rerun")
 SHOW_EMIT = ("csv", "skyc", "contact-sheet", "animatic", "rerun")
 LARGE_OUTPUTS = ("csv", "rerun")
 """Outputs of a show whose size grows with drones and time: some hundred kilobytes a drone."""
+MANY_DRONES = 2000
+"""Number of drones above which tables and recordings of a show are made only on request."""
 DEFAULT_MODEL = "x500"
 
 

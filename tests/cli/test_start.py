@@ -62,6 +62,11 @@ def test_check_loads_nothing_that_prints_plans_emits_or_makes_schemas(checked):
     assert not [name for name in checked for start in late if name == start or name.startswith(f"{start}.")]
 
 
+def test_check_of_a_film_loads_nothing_of_shows(checked):
+    shows = ("shotc.show", "shotc.ir.show", "shotc.ir.effects", "shotc.kinds.pictures", "shotc.kinds.effects")
+    assert not [name for name in checked for start in shows if name == start or name.startswith(f"{start}.")]
+
+
 @pytest.mark.long
 def test_the_help_of_all_commands_needs_the_base_install_only():
     code, modules = start("--help")

@@ -23,9 +23,10 @@ from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors
 from shotc.ir.sampling import clock
-from shotc.ir.show import MANY_DRONES, PyroCue
+from shotc.ir.show import PyroCue
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.sampled import Sampled, count, sampled
+from shotc.spec.presets import MANY_DRONES
 
 PLACES_HZ, COLORS_HZ = 4, 24
 """Samples a second, as in files of Skybrush."""

@@ -19,9 +19,9 @@ from shotc.emit.zip_parts import archive_parts
 from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
 from shotc.ir.sampling import clock
-from shotc.ir.show import MANY_DRONES
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.sampled import count, sampled
+from shotc.spec.presets import MANY_DRONES
 
 HEADER = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
 ROW = "%d,%.3f,%.3f,%.3f,%d,%d,%d"

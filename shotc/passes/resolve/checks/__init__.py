@@ -23,7 +23,6 @@ from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
 from shotc.passes.resolve.checks.safety import check_safety
 from shotc.passes.resolve.checks.shake import check_shake
-from shotc.passes.resolve.checks.show import check_show
 from shotc.passes.resolve.checks.terrain_level import check_level
 from shotc.passes.resolve.checks.timing import check_timing
 from shotc.passes.resolve.checks.underground import check_underground
@@ -56,6 +55,8 @@ def _judged(ir: LoadedMission, what: PartialMission, *, order: bool) -> list[Dia
         *check_parked(ir.spec, mission),
     ]
     if ir.spec.fleets:
+        from shotc.passes.resolve.checks.show import check_show
+
         faults += _shows_beside_meshes(mission)
         faults += check_show(mission, ir.spec, order=order and not has_errors(faults))
     return faults
@@ -68,7 +69,7 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     the order of the shots where all shots and homes are.
     """
     filmed = [(shot, way_of(mission, shot)) for shot in mission.shots]
-    if beyond := list(check_covered(mission, filmed)):
+    if beyond := [*check_covered(mission, filmed), *_shows_beyond(mission)]:
         return beyond
     beside = _beside_meshes(mission, filmed)
     ideals = (fault for shot, film in filmed for fault in check_ideal(mission, shot, film))
@@ -87,6 +88,14 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
     return faults
+
+
+def _shows_beyond(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield the pads and the pictures of shows that are not above the terrain."""
+    if mission.terrain is not None and (mission.fleets or mission.displays):
+        from shotc.passes.resolve.checks.show.covered_by_terrain import check_show_covered
+
+        yield from check_show_covered(mission)
 
 
 class _Beside(NamedTuple):

@@ -16,19 +16,17 @@ from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import each_once
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import FileReader, Files, match_files
-from shotc.passes.resolve.lower.fleets import PadSite
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.music import Heard, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.rehearsal import rehearsal, toward
-from shotc.passes.resolve.lower.shots import Shots, ShotSurroundings, expand_shots
-from shotc.passes.resolve.lower.show import ShowMaterial, shown
+from shotc.passes.resolve.lower.shots import Shots, ShotSurroundings, ShowMaterial, expand_shots
 from shotc.passes.resolve.lower.slips import check_slips
 from shotc.passes.resolve.lower.targets import Targets, targets
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
-from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, zones
+from shotc.passes.resolve.lower.world import PadSite, Put, drones, resolve_drone, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE_HZ, SHOW_RATE_HZ, TRANSIT_FILMED_M, TRANSIT_OTHER_M
@@ -69,7 +67,7 @@ def lowered(
     progress("expanding the shots")
     heard = music_of(ir, world.files)
     shots = _shots(ir, world, kinds, heard)
-    show = shown(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
+    show = _show(ir, world, shots, heard)
     names = check_names(ir.spec, ir.origins, emitters)
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
     faults = once([*world.faults, *heard.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
@@ -120,6 +118,15 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: H
         heard.music,
     )
     return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, WindSpec()))
+
+
+def _show(ir: LoadedMission, world: _World, shots: Shots, heard: Heard) -> ShowMaterial:
+    """Return what fleets fly and draw; a mission without them loads none of it."""
+    if not ir.spec.fleets:
+        return ShowMaterial()
+    from shotc.passes.resolve.lower.show import shown
+
+    return shown(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
 
 
 def _world(ir: LoadedMission) -> _World:

@@ -2,45 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from math import ceil, cos, pi, sin, sqrt
-from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.ground import GroundHeight
-from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.limits import Vec3
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet, FleetGroup, group_name, spans
-from shotc.kinds.base import Place, bad_file, counts_from_ground
+from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
-from shotc.passes.resolve.lower.world import Put, becalmed, beyond_model, limits_of
+from shotc.passes.resolve.lower.world import PadSite, becalmed, beyond_model, limits_of
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec, in_no_group
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS
 
 ROWS = (("x", "y", "z"), ("lat", "lon", "height"), ("x", "y"), ("lat", "lon"))
 """Tables of pads; those without a height are of pads that stand on the ground."""
-
-
-class PadSite(NamedTuple):
-    """Where pads are put. put : a place into W; ground : z of the ground at x and y, metres."""
-
-    put: Put
-    ground: GroundHeight
-
-    def over(self, anchor: Place, plan: Iterable[Vec2]) -> tuple[Vec3, ...]:
-        """Return pads of a layout at places (x, y) of W; anchor : the place that the layout is given by.
-
-        All are as high as the anchor, over the ground or over the origin as that counts.
-        """
-        x, y, z = self.put(anchor)
-        if not counts_from_ground(anchor):
-            return tuple((px, py, z) for px, py in plan)
-        height = z - self.ground(x, y)
-        return tuple((px, py, self.ground(px, py) + height) for px, py in plan)
 
 
 def fleets_of(spec: MissionSpec, site: PadSite, files: Files) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:

@@ -7,10 +7,9 @@ from typing import Any
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.show import MANY_DRONES
 from shotc.ir.source import TAKES
 from shotc.spec.mission import MissionSpec
-from shotc.spec.presets import EMIT, LARGE_OUTPUTS, PRESETS, SHOW_EMIT
+from shotc.spec.presets import EMIT, LARGE_OUTPUTS, MANY_DRONES, PRESETS, SHOW_EMIT
 from shotc.spec.shot import NO_DRONE
 from shotc.spec.words import nearest
 

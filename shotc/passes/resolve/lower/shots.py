@@ -16,13 +16,12 @@ from shotc.ir.target import Target
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded
-from shotc.passes.resolve.lower.named_pictures import named_pictures, unread_names
 from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import NO_DRONE, ShotBase
 
 if TYPE_CHECKING:  # missions without these features do not load them
-    from shotc.ir.show import Display
+    from shotc.ir.show import Display, Fleet
     from shotc.spec.shot import RequireSpec
 
 
@@ -58,6 +57,19 @@ class Shots(NamedTuple):
     pictures: tuple[Target, ...] = ()
 
 
+class ShowMaterial(NamedTuple):
+    """Fleets with readable layouts, the files that displays draw, and the faults of the others.
+
+    files : (name, bytes), the song among them
+    drawn : (name, SHA-256) of the drawn files
+    """
+
+    fleets: "tuple[Fleet, ...]" = ()
+    files: tuple[tuple[str, bytes], ...] = ()
+    drawn: tuple[tuple[str, str], ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
 def expand_shots(spec: MissionSpec, cast: ShotSurroundings, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a valid drone is checked with the drone of ``spare`` and left out."""
     diagnostics: list[Diagnostic] = []
@@ -70,9 +82,13 @@ def expand_shots(spec: MissionSpec, cast: ShotSurroundings, spare: Callable[[], 
             deferred += expansion.deferred
             displays += [] if expansion.display is None else [expansion.display]
     # Cameras may film the pictures of any display by their names.
-    pictures, wrong = named_pictures(spec, displays, cast)
-    cast = cast._replace(targets={**unread_names(spec, displays), **cast.targets, **pictures})
-    diagnostics += wrong
+    pictures: Mapping[str, Target | None] = {}
+    if any(written.drone == NO_DRONE for written in spec.shots):
+        from shotc.passes.resolve.lower.named_pictures import named_pictures, unread_names
+
+        pictures, wrong = named_pictures(spec, displays, cast)
+        cast = cast._replace(targets={**unread_names(spec, displays), **cast.targets, **pictures})
+        diagnostics += wrong
     shots: list[Shot] = []
     for i, written in enumerate(spec.shots):
         if written.drone == NO_DRONE:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import cos, degrees, isclose, sin, tan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import BaseModel
 
@@ -12,11 +12,12 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.focal import FULL_FRAME_M
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.drone import Drone, Gimbal, LensRange, Optics, Safety
+from shotc.ir.ground import GroundHeight
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
-from shotc.kinds.base import counts_from_ground, stands
+from shotc.kinds.base import Place, counts_from_ground, stands
 from shotc.passes.resolve.lower.rehearsal import toward
 from shotc.spec.drones import CameraSpec, DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
@@ -39,6 +40,24 @@ BEYOND_PRESET_RATIO = 2.0  # factor of a preset's value; presets have at least h
 WIDER_LENS_RATIO = 1.02  # ratio of widths from which a lens differs from the model's
 _PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2"}
 LEAST_SPEED_M_S = 0.1  # m/s, least speed that the wind has to leave
+
+
+class PadSite(NamedTuple):
+    """Where pads are put. put : a place into W; ground : z of the ground at x and y, metres."""
+
+    put: Put
+    ground: GroundHeight
+
+    def over(self, anchor: Place, plan: Iterable[Vec2]) -> tuple[Vec3, ...]:
+        """Return pads of a layout at places (x, y) of W; anchor : the place that the layout is given by.
+
+        All are as high as the anchor, over the ground or over the origin as that counts.
+        """
+        x, y, z = self.put(anchor)
+        if not counts_from_ground(anchor):
+            return tuple((px, py, z) for px, py in plan)
+        height = z - self.ground(x, y)
+        return tuple((px, py, self.ground(px, py) + height) for px, py in plan)
 
 
 def zones(
