@@ -30,17 +30,17 @@ USABLE = (Status.SOLVED, Status.INACCURATE)
 
 
 def windowed_move(
-    path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, seconds: Array
+    path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, durations: Array
 ) -> TimedMove | None:
-    """Return the move whose intervals of s, which end at ``ends``, take ``seconds`` each; None if infeasible.
+    """Return the move whose intervals of s, up to ``ends``, take ``durations`` each; None if infeasible.
 
     Places are met by equality constraints, to about 1e-7 s.
 
-    ends, seconds : shape (W,); the last end is that of the whole interval
+    ends, durations : shape (W,); the last end is that of the whole interval
     """
     limits = axes_of(path, span, ceiling)
     inner = axes_of(path, span, ceiling.scaled(MARGIN_SHARE))
-    t, places = _knots(span[0], ends, seconds)
+    t, places = _knots(span[0], ends, durations)
     law = time_law(t, places, None, None)
     for steps in range(1, LIMIT_ROUNDS + 1):
         if law.status not in USABLE:
@@ -55,11 +55,11 @@ def windowed_move(
     return None
 
 
-def _knots(start: float, ends: Array, seconds: Array) -> tuple[Array, tuple[tuple[int, float], ...]]:
+def _knots(start: float, ends: Array, durations: Array) -> tuple[Array, tuple[tuple[int, float], ...]]:
     """Return knots of t, evenly spaced in each interval, and the knots at which places are fixed."""
-    total = float(seconds.sum())
+    total = float(durations.sum())
     parts, places, clock = [np.zeros(1)], [(0, start)], 0.0
-    for end, time in zip(ends, seconds, strict=True):
+    for end, time in zip(ends, durations, strict=True):
         cells = max(LEAST_CELLS, round(CELLS * time / total))
         parts.append(clock + time * np.arange(1, cells + 1) / cells)
         clock = float(parts[-1][-1])
