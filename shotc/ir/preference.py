@@ -17,6 +17,12 @@ The subject is then at most a fourth larger or a sixth smaller, and its view tur
 11.5 deg. A viewer still sees the same shot.
 """
 
+PICTURE_SHARE = 0.5
+"""Share of the distance to its target by which a shot may leave its ideal for its picture.
+
+It promises how its subjects appear, or something hides them.
+"""
+
 UNWATCHED = 10.0
 """Distance that counts for a shot without a named target, metres."""
 

@@ -43,7 +43,7 @@ from shotc.ir.path import (
     TimedPath,
     leg_of,
 )
-from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
+from shotc.ir.preference import MOST_MOVED, PICTURE_SHARE, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import projected, seen
 from shotc.ir.setpoints import Asked
 from shotc.ir.trajectory import DroneTrajectory
@@ -77,6 +77,7 @@ __all__ = [
     "HFOV",
     "MOST_MOVED",
     "NO_HALF_SPACES",
+    "PICTURE_SHARE",
     "ROUNDING_M",
     "SIGHT",
     "UNWATCHED",

@@ -228,3 +228,33 @@ def test_a_distance_off_the_ideal_is_the_size_s_and_the_view_s_error_in_one() ->
         size = usual / away - 1.0  # Eq. 8, as a share of the size asked for
         view = moved / away - ideal / usual  # Eq. 9
         assert size**2 + view @ view == pytest.approx(off @ off / usual**2, rel=0.25)
+
+
+STATUES = """\
+shotc: 1
+mission: statues
+targets:
+  tall: {at: [0, 0, 2.965], radius: 1.28, height: 5.93}
+  low: {at: [1.64, -4.5, 1.55], radius: 1.38, height: 3.1}
+  near: {at: [-4.41, 0, 1.9], radius: 1.28, height: 3.8}
+drones: {cam: {model: pro, camera: {hfov: 86 deg}, home: [12.7, -24.2, 0]}}
+rules: {composition: thirds, ground_clearance: 3, target_clearance: 0.5, allow: [hidden-subject]}
+shots:
+  - id: s
+    kind: framing
+    drone: cam
+    subjects:
+      - {target: tall, frame: [-0.05, 0.1], size: 0.34}
+      - {target: low, frame: [0.25, -0.05]}
+      - {target: near}
+    timing: {duration: 9}
+"""
+
+
+@pytest.mark.long
+def test_a_camera_looks_past_others_no_farther_than_verification_believes() -> None:
+    """It would go 9.5 m off its place, and 8.7 m are believed: half of its distance to the nearest statue."""
+    done = compiled(STATUES)
+    assert done.plan is not None, done.diagnostics
+    (off,) = (c for c in done.plan.certificate if c.constraint == "distance from its place")
+    assert 1.0 < off.worst < off.limit

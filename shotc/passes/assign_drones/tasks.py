@@ -21,13 +21,20 @@ SLOWER_RATIO = 2.0
 """Duration of a transfer over its least time, for smooth starts and stops and for obstacles."""
 
 
+class CameraEnds(NamedTuple):
+    """Where the camera of a shot begins and ends, W, metres."""
+
+    first: Vec3
+    last: Vec3
+
+
 class ShotTask(NamedTuple):
     """One shot.
 
     number : its index in the mission
     start : seconds, None where it is free
     duration : least duration, seconds
-    first, last : where the camera begins and ends
+    ends : where the camera begins and ends, by drone
     flown_by : its drone, None where it is open
     drones : of the mission, by name
     """
@@ -36,63 +43,78 @@ class ShotTask(NamedTuple):
     id: str
     start: float | None
     duration: float
-    first: Vec3
-    last: Vec3
+    ends: Mapping[str, CameraEnds]
     flown_by: str | None
     drones: Mapping[str, Drone]
 
     def travel_time(self, drone: str) -> float:
         """Return the least time from a drone's home to the shot, seconds."""
-        return least_travel([self.drones[drone].home, self.first], self.drones[drone].limits)
+        return least_travel([self.drones[drone].home, self.ends[drone].first], self.drones[drone].limits)
 
     def back(self, drone: str) -> float:
         """Return the least time from the shot to a drone's home, seconds."""
-        return least_travel([self.last, self.drones[drone].home], self.drones[drone].limits)
+        return least_travel([self.ends[drone].last, self.drones[drone].home], self.drones[drone].limits)
 
     def to(self, other: ShotTask, drone: str) -> float:
         """Return the least time from the end of this shot to the start of another, seconds."""
-        return least_travel([self.last, other.first], self.drones[drone].limits)
+        return least_travel([self.ends[drone].last, other.ends[drone].first], self.drones[drone].limits)
 
     def length(self, drone: str) -> float:
         """Return the distance from a drone's home to the shot, metres."""
-        return dist(self.drones[drone].home, self.first)
+        return dist(self.drones[drone].home, self.ends[drone].first)
 
 
 def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[ShotTask, ...] | None:
     """Return every shot as a task; None where one is invalid.
 
-    Each shot is resolved alone, with the first drone where that is open. Its place depends neither on the
-    drone nor on obstacles, so scenes and buildings are not read.
+    Each shot is resolved alone, without obstacles that take long to read: scenes and buildings.
     """
-    spec = ir.spec
-    world = spec.world.model_copy(update={"scene": None, "buildings": None})
-    some = next(iter(spec.drones))
     tasks: list[ShotTask] = []
-    for i, written in enumerate(spec.shots):
+    for i, written in enumerate(ir.spec.shots):
         open_ = written.drone == AUTO
-        alone = written.model_copy(update={"drone": some}) if open_ else written
-        timing = alone.timing.model_copy(update={"after": None})
-        shots = (alone.model_copy(update={"timing": timing}),)
-        one = ir._replace(spec=spec.model_copy(update={"shots": shots, "world": world}))
-        mission = Resolve(kinds).run(one, PassContext()).value
-        if mission is None or not mission.shots:
+        mission = _alone(ir, kinds, i, next(iter(ir.spec.drones)) if open_ else written.drone)
+        if mission is None:
             return None
-        tasks.append(_task(i, mission, mission.shots[0], None if open_ else written.drone))
+        ends = dict.fromkeys(ir.spec.drones, _ends(mission, mission.shots[0]))
+        if open_ and _depends_on_drone(mission.shots[0]):
+            for drone in ir.spec.drones:
+                resolved = _alone(ir, kinds, i, drone)
+                if resolved is not None:
+                    ends[drone] = _ends(resolved, resolved.shots[0])
+        tasks.append(_task(i, mission, ends, None if open_ else written.drone))
     return tuple(tasks)
 
 
-def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> ShotTask:
-    drones = {drone.name: drone for drone in mission.drones}
-    start = shot.timing.start
-    if shot.ideal is not None:
-        begin = start or 0.0
-        duration = shot.timing.duration or 0.0
-        first, last = (ideal_place(mission, shot, begin, t) for t in (begin, begin + duration))
-    else:
-        first, last = shot.keyframes[0].at, shot.keyframes[-1].at
-        least = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
-        duration = shot.timing.duration or least
-    return ShotTask(index, shot.id, start, duration, first, last, flown_by, drones)
+def _alone(ir: LoadedMission, kinds: Mapping[str, Kind], number: int, drone: str) -> MissionIR | None:
+    """Return the mission with one shot alone, flown by a drone; None if it is invalid."""
+    written = ir.spec.shots[number]
+    timing = written.timing.model_copy(update={"after": None})
+    shots = (written.model_copy(update={"drone": drone, "timing": timing}),)
+    world = ir.spec.world.model_copy(update={"scene": None, "buildings": None})
+    one = ir._replace(spec=ir.spec.model_copy(update={"shots": shots, "world": world}))
+    mission = Resolve(kinds).run(one, PassContext()).value
+    return mission if mission is not None and mission.shots else None
+
+
+def _depends_on_drone(shot: Shot) -> bool:
+    """Return whether a shot's place depends on its drone: on its lens, and on where it comes from."""
+    return shot.ideal is not None and shot.ideal.framed
+
+
+def _ends(mission: MissionIR, shot: Shot) -> CameraEnds:
+    if shot.ideal is None:
+        return CameraEnds(shot.keyframes[0].at, shot.keyframes[-1].at)
+    begin = shot.timing.start or 0.0
+    end = begin + (shot.timing.duration or 0.0)
+    return CameraEnds(ideal_place(mission, shot, begin, begin), ideal_place(mission, shot, begin, end))
+
+
+def _task(index: int, mission: MissionIR, ends: Mapping[str, CameraEnds], flown_by: str | None) -> ShotTask:
+    shot, drones = mission.shots[0], {drone.name: drone for drone in mission.drones}
+    duration = shot.timing.duration
+    if shot.ideal is None and not duration:
+        duration = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
+    return ShotTask(index, shot.id, shot.timing.start, duration or 0.0, ends, flown_by, drones)
 
 
 def busiest(tasks: tuple[ShotTask, ...]) -> tuple[float, list[ShotTask]]:

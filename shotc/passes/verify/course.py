@@ -23,12 +23,12 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.preference import PICTURE_SHARE
 from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, gap
 from shotc.passes.verify.explained import (
     NEAR_M,
-    PICTURE_SHARE,
     ExpectedPlaces,
     believed,
     farthest,

@@ -29,16 +29,13 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import mesh_owner
 from shotc.ir.path import Deviation
-from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.ir.preference import MOST_MOVED, PICTURE_SHARE, UNWATCHED
 from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.target import Target
 from shotc.passes.verify.claims import JudgedFlight
 
 NEAR_M = 1.0
 """Metres beyond its clearances within which an obstacle counts."""
-
-PICTURE_SHARE = 0.5
-"""Share of the distance to its target by which a shot may leave its ideal for its picture."""
 
 THINGS = ("zone ", "target ", "drone ", "ground", "scene", "building")
 """Prefixes of causes that name an obstacle."""

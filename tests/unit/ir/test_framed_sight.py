@@ -136,7 +136,7 @@ def test_several_subjects_are_filmed_from_where_the_camera_has_room() -> None:
     assert (beside.blocked, beside.lost) == (0.0, 0.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_several_subjects_stay_hidden_where_no_place_shows_one() -> None:
     """The person stands in a shaft that is too narrow for a drone, and too deep to look into."""
     walls = COURT.replace("3]", "100]").replace(" 6]", " 200]").replace("5,", "2,").replace(" 5,", " 2,")

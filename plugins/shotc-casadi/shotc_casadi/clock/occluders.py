@@ -14,6 +14,7 @@ from math import isfinite, sqrt
 import numpy as np
 
 from shotc.plugin_api.refiner import (
+    PICTURE_SHARE,
     Array,
     Cylinder,
     Mask,
@@ -25,7 +26,7 @@ from shotc.plugin_api.refiner import (
     moved,
     parts_of_one,
 )
-from shotc_casadi.clock.references import ClockReferences, ClockSubject
+from shotc_casadi.clock.references import INNER_M, ClockReferences, ClockSubject
 from shotc_casadi.clock.symbols import SIGHT_LINE_PARAMETERS
 
 ENCLOSES = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
@@ -34,6 +35,7 @@ KHACHIYAN_STEPS = 200  # of Khachiyan's method
 NEAR_DV = 3.0  # of -d_v: lines of sight within twice the ellipsoid count
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # possible numbers of ellipsoids, so that few programmes are built
 NO_OCCLUDER_DV = -1e2  # of d_v, where there is no ellipsoid
+INNER_SHARE = 0.98  # of a share of the distance, because of the motion between nodes
 ROOM_DV = 0.1  # of d_v: an ellipsoid that contains the camera or the subject, or almost, does not count
 
 
@@ -100,7 +102,7 @@ def with_occluders(
 ) -> ClockReferences:
     """Return the references with the ellipsoids near the lines of sight from ``eyes`` (N + 1, 3).
 
-    Ellipsoids of earlier rounds stay. The camera may then be at any distance from its ideal place.
+    Ellipsoids of earlier rounds stay.
 
     filmed : whether each node is in the film
     """
@@ -124,7 +126,22 @@ def with_occluders(
                 1.0,
                 *points[k, occluder.before],
             ]
-    return replace(references, sight_lines=sight_lines, near=near, reach=np.full(len(eyes), np.inf))
+    return replace(
+        references, sight_lines=sight_lines, near=near, reach=_reach_past(references, eyes, filmed)
+    )
+
+
+def _reach_past(references: ClockReferences, eyes: Array, filmed: Mask) -> Array:
+    """Return how far the camera may be from its ideal place to look past something, metres, (N + 1,).
+
+    Verification believes a share of the distance to the nearest subject. A course ``eyes`` that is farther
+    away already may stay.
+    """
+    ideal = references.ideal
+    away = np.linalg.norm(references.centres - ideal[:, None], axis=2).min(axis=1)
+    most = INNER_SHARE * PICTURE_SHARE * float(away[filmed].max(initial=0.0))
+    off = np.linalg.norm(eyes - ideal, axis=1) + INNER_M
+    return np.where(filmed, np.maximum(most, off), np.inf)
 
 
 def hides_anew(

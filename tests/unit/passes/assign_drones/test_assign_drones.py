@@ -13,7 +13,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.kinds.models import mesh_file
 from shotc.passes.assign_drones.choice import WORK_PER_METRE_S, choose
-from shotc.passes.assign_drones.tasks import ShotTask
+from shotc.passes.assign_drones.tasks import CameraEnds, ShotTask
 from tests.support.front_passes import clean
 from tests.support.meshes import box_mesh, ply
 from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE, TAIL
@@ -24,7 +24,8 @@ DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}
 def task(
     number: int, start: float | None, lasts: float, x: float, y: float, by: str | None = None
 ) -> ShotTask:
-    return ShotTask(number, f"s{number}", start, lasts, (x, y, 10.0), (x, y, 10.0), by, DRONES)
+    ends = dict.fromkeys(DRONES, CameraEnds((x, y, 10.0), (x, y, 10.0)))
+    return ShotTask(number, f"s{number}", start, lasts, ends, by, DRONES)
 
 
 def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
@@ -73,6 +74,24 @@ def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
     assert done.plan is not None, done.diagnostics
     shots = {s.id: s.drone for s in done.plan.trajectory.keyframes.mission.shots}
     assert sorted(shots.values()) == ["cam1", "cam2", "cam3"]
+
+
+@pytest.mark.slow
+def test_a_framing_of_free_bearing_is_filmed_from_where_each_drone_comes() -> None:
+    """Where it is for the first drone, west of the tower, it is nearer to that one than the crane is."""
+    text = """\
+shotc: 1
+mission: sides
+targets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}
+drones: {west: {model: x500, home: [-200, 5, 0]}, east: {model: x500, home: [210, -5, 0]}}
+shots:
+  - {id: crane, kind: crane, drone: auto, target: tower, azimuth: 260 deg, distance: 30, altitude: [10, 12],
+     timing: {start: 40, duration: 8}}
+  - {id: framing, kind: framing, drone: auto, subjects: [{target: tower}], timing: {start: 40, duration: 8}}
+"""
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none", stop_after="resolve"))
+    (mission,) = (report.output for report in done.reports if report.name == "resolve")
+    assert [(s.id, s.drone) for s in mission.shots] == [("crane", "west"), ("framing", "east")]
 
 
 def test_scenes_are_not_read_for_every_shot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
