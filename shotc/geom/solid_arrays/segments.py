@@ -80,7 +80,7 @@ def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask
 def within(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
     """Return the shares of segments from eyes (M, 3) at which they enter and leave a convex solid, (M,) each.
 
-    along : from start to end, (M, 3). A segment outside the solid has leave < enter.
+    along : from start to end, (M, 3). A segment outside the solid has leave <= enter.
     """
     bottom, top = heights(part)
     zero, one = np.zeros(len(eyes)), np.ones(len(eyes))

@@ -102,3 +102,25 @@ def test_flights_that_never_count_together_come_near_nowhere() -> None:
     flights = drawn(5, 2, common=True)
     found = closest_of(flights, BALL, spans=np.array([[0.0, 3.0], [5.0, 8.0]]))
     assert (found.proven, found.position) == (np.inf, (0.0, 0.0, 0.0))
+
+
+def test_a_control_point_that_a_flight_only_turns_to_is_no_place_that_it_comes_to() -> None:
+    """It flies towards the other one till the last moment: y = 12 t^2 (1 - t), 16 / 9 m at most."""
+    breaks = np.array([0.0, 1.0])
+    turning = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 0.0]])
+    still = np.tile([0.0, 4.0, 0.0], (4, 1))
+    found = closest_of([Piecewise(breaks, turning[None]), Piecewise(breaks, still[None])], BALL)
+    assert found is not None
+    assert found.attained == pytest.approx(4.0 - 16.0 / 9.0, abs=1e-5)
+
+
+def test_before_a_span_begins_nearness_does_not_count_though_it_is_a_moment_before() -> None:
+    """They are nearest at t = 6; the second one counts from t = 7.5 on."""
+    breaks = np.linspace(0.0, 8.0, 5)
+    still, x = np.zeros((4, 4, 3)), np.abs(breaks - 6.0) + 1.0
+    coming = still.copy()
+    coming[..., 0] = np.linspace(x[:-1], x[1:], 4, axis=1)
+    flights = [Piecewise(breaks, ctrl) for ctrl in (still, coming)]
+    found = closest_of(flights, BALL, spans=np.array([[0.0, 8.0], [7.5, 8.0]]))
+    assert found is not None
+    assert (found.attained, found.time) == pytest.approx((2.5, 7.5), abs=1e-4)

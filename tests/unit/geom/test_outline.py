@@ -158,9 +158,12 @@ def test_what_touches_is_within_or_behind_covers_nothing_and_what_holds_the_targ
 
 def test_rays_go_on_beyond_all_of_a_target_however_it_stands() -> None:
     eyes = np.array([[0.1, 0.0, 30.0], [20.0, 0.0, 0.0]])
-    boards = outline_boards(CylinderShape(0.5, 20.0), (0.0, 0.0, 0.0), eyes)
-    assert boards.through[0] > 40.0 / 30.0
-    assert boards.through[1] > 20.5 / 20.0
+    post, ball = CylinderShape(0.5, 20.0), CylinderShape(0.2, 0.4)
+    both = GroupShape((Part((0.0, 0.0, 0.0), ball), Part((0.0, 0.0, -10.0), ball)))
+    for shape in (post, both):
+        through = outline_boards(shape, (0.0, 0.0, 0.0), eyes).through
+        assert through[0] > 40.0 / 30.0
+        assert through[1] > 20.5 / 20.0
 
 
 def test_an_eye_within_its_target_sees_no_outline() -> None:

@@ -60,3 +60,11 @@ def test_a_footprint_is_one_part_unless_a_corner_of_it_points_inside(points, par
 )
 def test_the_nearest_point_of_a_cylinder(p: Vec3, nearest: Vec3) -> None:
     assert Cylinder((1.0, 0.0), 5.0, 2.0, 5.0).closest(p) == pytest.approx(nearest)
+
+
+def test_the_nearest_point_of_a_prism_is_on_the_side_that_is_nearest() -> None:
+    wedge = Prism(((0.0, 0.0), (6.0, 0.0), (0.0, 8.0)), 1.0, 3.0)
+    assert wedge.closest((1.0, 1.0, 9.0)) == (1.0, 1.0, 3.0)
+    assert wedge.closest((2.0, -5.0, 2.0)) == pytest.approx((2.0, 0.0, 2.0))
+    assert wedge.closest((7.0, 7.0, 0.0)) == pytest.approx((3.0, 4.0, 1.0))
+    assert wedge.closest((-1.0, 9.0, 2.0)) == pytest.approx((0.0, 8.0, 2.0))

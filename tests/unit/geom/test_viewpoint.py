@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot, pi, radians, tan
+from math import cos, hypot, pi, radians, sin, tan
 
 import numpy as np
 import pytest
@@ -130,6 +130,12 @@ def test_one_subject_is_shown_where_and_as_large_as_it_is_asked_for() -> None:
     assert seen is not None
     assert (seen.screen, seen.size, seen.angle) == pytest.approx((0.0, 0.3, 0.0), abs=1e-4)
     assert cost < 1e-6
+
+
+def test_below_a_floor_that_no_elevation_reaches_a_camera_looks_down_from_its_own_side() -> None:
+    x, y, z = stand(MAN, LENS, PlaceBounds(1e6, 1.6), 0.4, 0.3)
+    assert z > 0.0
+    assert (x / hypot(x, y), y / hypot(x, y)) == pytest.approx((sin(0.4), cos(0.4)))
 
 
 @pytest.mark.long

@@ -71,7 +71,7 @@ def test_a_segment_is_as_near_as_its_nearest_point(solid: Solid) -> None:
     assert np.maximum(signed_distance(solid, points), 0.0) == pytest.approx(found, abs=1e-6)
 
 
-@pytest.mark.parametrize("scale", [1e-3, 1e3])
+@pytest.mark.parametrize("scale", [1e-4, 1e3])
 def test_the_nearest_point_of_a_segment_is_the_same_in_every_unit(scale: float) -> None:
     a, b = drawn(3)
     small = Cylinder((scale * 1.0, scale * -2.0), scale * 5.0, 0.0, scale * 10.0)

@@ -228,15 +228,16 @@ def test_the_ground_plane_of_a_slope_is_the_slope():
     assert with_margin.offset[0] == pytest.approx(2.0 / np.hypot(0.5, 1), abs=1e-9)
 
 
-def test_ground_beside_the_box_of_a_piece_lifts_its_plane_only_by_what_is_inside():
-    """A valley of two faces that rise far beyond the box: the plane is level with the edges of the box."""
-    edge = np.array([[0.0, -50.0, 0.0], [0.0, 50.0, 0.0]])
-    corners = np.array([*edge, [80.0, 0.0, 80.0], [-80.0, 0.0, 80.0]])
-    valley = ground_of(corners, np.array([[0, 2, 1], [0, 1, 3]]))
+@pytest.mark.parametrize(("far", "level"), [(80.0, 3.0), (-80.0, 0.0)])
+def test_ground_beside_the_box_of_a_piece_lifts_its_plane_only_by_what_is_inside(far: float, level: float):
+    """Two faces rise or fall beyond a box of 6 m: of a valley its edges count, of a roof its top."""
+    edge = np.array([[0.0, -200.0, 0.0], [0.0, 200.0, 0.0]])
+    corners = np.array([*edge, [80.0, 0.0, far], [-80.0, 0.0, far]])
+    ground = ground_of(corners, np.array([[0, 2, 1], [0, 1, 3]]))
     hull = np.array([[[-2.0, -1.0, 9.0], [2.0, -1.0, 9.0], [0.0, 1.0, 9.0]]])
-    found = ground_planes(valley, hull, 1.0, 0.5, nothing)
+    found = ground_planes(ground, hull, 1.0, 0.5, nothing)
     assert found.normal[0] == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
-    assert found.offset[0] == pytest.approx(3.5)
+    assert found.offset[0] == pytest.approx(level + 0.5)
 
 
 def test_where_there_is_no_ground_there_is_no_ground_plane():

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.surface import sight
-from shotc.geom.surface.boards import Billboards, billboards, facing_cylinders, upright
+from shotc.geom.surface.boards import Billboards, billboards, cells_of, facing_cylinders, upright
 from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
@@ -159,3 +159,34 @@ def test_a_slope_behind_the_ends_of_all_rays_is_left_out_whatever_its_size(
     slope = [[-half_width, 19.9, 19.9 - c], [half_width, 19.9, 19.9 - c], [0.0, 21.0, 21.0 - c]]
     found = sight.in_the_way(surface_of(np.array([slope])), north(20.0, 2.0), 4)
     assert bool(len(found)) is met
+
+
+@pytest.mark.parametrize("count", [8, 10, 12])
+def test_frames_that_share_a_search_have_the_triangles_of_a_search_each(
+    count: int, monkeypatch: pytest.MonkeyPatch
+):
+    """A camera that flies past one target: its frames are nearly alike."""
+    surface = surface_of(some_triangles(np.random.default_rng(6), 90))
+    eye = np.column_stack([np.linspace(30.0, 30.5, count), np.full(count, 1.0), np.full(count, 2.0)])
+    boards = billboards(eye, np.tile([-9.0, 0.0, 0.0], (count, 1)), 4.0, 3.0)
+    monkeypatch.setattr(sight, "GROUPED_FRAMES", 4)
+    together = sight.candidates(surface, boards)
+    monkeypatch.setattr(sight, "GROUPED_FRAMES", count)
+    alone = sight.candidates(surface, boards)
+    assert len(alone)
+    found = [sorted(zip(p.item.tolist(), p.triangle.tolist(), strict=True)) for p in (together, alone)]
+    assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("n", [1, 2, 7])
+def test_a_pyramid_goes_through_the_outermost_middles_of_cells(n: int):
+    random = np.random.default_rng(4)
+    boards = Billboards(*random.normal(size=(4, 3, 3)))
+    middles = cells_of(boards, n).reshape(3, n * n, 3) - boards.eye[:, None]
+    found = sight._pyramids(boards, n)
+    for frame in range(3):
+        corners = middles[frame].reshape(n, n, 3)[[0, 0, -1, -1], [0, -1, 0, -1]]
+        key = np.lexsort(corners.round(9).T), np.lexsort(found.ends[frame].round(9).T)
+        assert found.ends[frame][key[1]] == pytest.approx(corners[key[0]])
+    inside = np.einsum("fsd,fkd->fsk", found.sides, middles)
+    assert inside.min() >= -1e-9

@@ -48,7 +48,7 @@ def test_the_pass_that_lacks_most_is_told_first(monkeypatch: pytest.MonkeyPatch)
     assert told == ["house", "tree", "mast"]
 
 
-@pytest.mark.parametrize(("needs", "tapers"), [(5.0, False), (4.995, False), (3.0, True)])
+@pytest.mark.parametrize(("needs", "tapers"), [(5.0, False), (4.995, False), (4.5, True)])
 def test_where_a_way_begins_or_ends_nearer_less_is_needed_and_told(needs: float, tapers: bool) -> None:
     claim = SimpleNamespace(limit=5.0)
     passed = ClosestPass("it", ("zones", "it"), TransitInterval(0.0, 9.0, "b"), 1.0, 1.0, needs)

@@ -7,6 +7,7 @@ import pytest
 
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces
+from shotc.geom.proof import ProvedExtreme
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
@@ -14,6 +15,9 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.limits import Timing
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Limit
+from shotc.passes.verify.fleets.displays import displays
+from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.fleets.space import _boxes_apart, _off, nearest
 from tests.support.records import replace
 from tests.support.show_plans import display, fleet, mission, show
@@ -50,6 +54,16 @@ def test_pictures_are_shown_one_after_another_in_the_order_written(
     order = claim(showing(*shown), "pictures out of order")
     assert order.worst == astray
     assert order.holds is (astray == 0)
+
+
+@pytest.mark.parametrize(("times", "holds"), [(0, False), (1, True), (2, False)])
+def test_a_display_is_flown_once(times: int, holds: bool) -> None:
+    track = SHOW.fleets[0]
+    flown = [p for p in track.phases if p.shot == "globe"] * times
+    others = [p for p in track.phases if p.shot is None]
+    again = replace(track, phases=(*others, *flown), shown=())
+    found = next(displays(FleetFlight.of(SHOW.keyframes.mission, again), SHOW))
+    assert (found.constraint, found.worst, found.holds) == ("times flown", times, holds)
 
 
 @pytest.mark.parametrize("by", [-1.0, 1.0])
@@ -145,3 +159,11 @@ def _away(places: list[tuple[float, float, float]]) -> list[float]:
     return [
         float(np.hypot(max(np.hypot(x, y) - 2.0, 0.0), max(abs(z - 2.0) - 2.0, 0.0))) for x, y, z in places
     ]
+
+
+@pytest.mark.parametrize(("upper", "drone"), [(True, "swarm-4"), (False, "swarm-1")])
+def test_a_bound_over_all_drones_names_the_one_that_is_worst(upper: bool, drone: str) -> None:
+    one = FleetFlight.of(SHOW.keyframes.mission, SHOW.fleets[0])
+    limit = Limit("east", 1.0, "m", one.fleet.path, upper=upper)
+    (found,) = bounded(one, limit, ProvedExtreme(5.0, 5.0, 0.0), lambda at: at[:, 0]).drones
+    assert found == drone

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from importlib import import_module
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,6 +22,7 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.show import PyroCue
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.fleets import pyro_advice
+from shotc.passes.verify.fleets.flight import FleetFlight
 from tests.support.few import examples
 from tests.support.show_plans import display, fleet, flight, mission
 from tests.support.standing_worlds import SIDE, STEP, from_box, height_over, house, ridge, terrain
@@ -28,6 +30,7 @@ from tests.support.surfaces import Grid, grid
 from tests.support.terrain_missions import relief
 from tests.support.verdicts import verdict_on
 
+pyro = import_module("shotc.passes.verify.fleets.pyro")
 GROUND = "pyro 1 fountain from the ground"
 BUILDINGS = "pyro 1 fountain from the buildings"
 BURNS = (17.0, 27.0)
@@ -182,6 +185,45 @@ def test_what_burns_on_the_ground_is_told_when_it_may_burn() -> None:
     cue = PyroCue(2.0, (1,), "fountain", 5.0, 50.0, 1.0, 0.0, 0.0, ("shots", 0))
     _, (fault,) = judged(one_cue(cue, ((8.0, 0.0, 0.0),)))
     assert fault.help == "have it burn in the air: `at` between 9.00 s and 33.00 s"
+
+
+@pytest.mark.parametrize(("until", "outside"), [(32.5, 0.0), (38.0, 0.0), (39.5, 1.5)])
+def test_what_burns_until_the_drones_land_is_within_the_flight(until: float, outside: float) -> None:
+    cue = PyroCue(until - 1.5, (1,), "fountain", 1.5, 0.5, 0.0, 0.0, 0.0, ("shots", 0))
+    claims, _ = judged(one_cue(cue, ((8.0, 0.0, 0.0),)))
+    assert claims["pyro 1 fountain outside the flight"].worst == pytest.approx(outside)
+
+
+def test_a_fleet_without_a_display_stands_on_its_pads_for_the_whole_flight() -> None:
+    asked = mission(fleets=(fleet(), fleet(((90.0, 0.0, 0.0), (95.0, 0.0, 0.0)), "spare")))
+    track = flight(asked.fleets[0])
+    one = FleetFlight.of(asked, track)
+    ir = TrajectoryIR(KeyframeIR(asked, ()), (), (), (), (track,))
+    spare = next(others for others in pyro._others(ir, [one], one, 0) if "spare" in others.what)
+    assert spare.breaks.tolist() == [track.breaks[0], track.breaks[-1]]
+    assert spare.ctrl[:, 0, 0].tolist() == [[90.0, 0.0, 0.0], [95.0, 0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("of", "drones", "ignition", "busy"),
+    [
+        ("swarm", (1, 3), 20.0, True),
+        ("swarm", (3,), 20.0, False),
+        ("swarm", (1,), 15.0, False),
+        ("swarm", (1,), 24.0, False),
+        ("other", (1,), 20.0, False),
+    ],
+)
+def test_drones_on_which_something_else_burns_meanwhile_are_no_remedy(
+    of: str, drones: tuple[int, ...], ignition: float, busy: bool
+) -> None:
+    cue = PyroCue(20.0, (2,), "fountain", 4.0, 1.0, 0.0, 0.0, 0.0, ("shots", 0, "pyro", 0))
+    own = display()._replace(pyro=(cue,))
+    asked = cue._replace(time=ignition, drones=drones, path=("shots", 1, "pyro", 0))
+    other = display("second", of, 1)._replace(pyro=(asked,))
+    ir = SimpleNamespace(keyframes=SimpleNamespace(mission=SimpleNamespace(displays=(own, other))))
+    firing: Any = SimpleNamespace(ir=ir, display=own)
+    assert pyro_advice._Firing._burn_others(firing, cue, (1, 2)) is busy
 
 
 def test_a_product_is_as_far_as_the_viewpoint_the_ground_and_other_drones_the_nearest_of_them(

@@ -6,6 +6,7 @@ import random
 from itertools import combinations, product
 from math import cos, dist, hypot, inf, pi, sin, sqrt
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,7 +16,8 @@ from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
 from shotc.show.geom.fit import _on_face, _round_box, most_drones
-from shotc.show.geom.shape import balls, bounds, depth_in, highest, lowest
+from shotc.show.geom.shape import NARROW_SHARE, balls, bounds, depth_in, highest, lowest
+from shotc.show.goals.body import upright_axes
 
 coordinates = st.floats(-8, 8).map(lambda x: round(x, 3))
 aparts = st.builds(
@@ -223,3 +225,11 @@ def test_rows_of_triangles_come_near_the_bound_of_a_face_and_a_row_meets_it() ->
         count = rows * 101 - rows // 2  # 101 and 100 in turn
         bound = _on_face(100 * gap, (rows - 1) * gap * sqrt(0.75), gap)
         assert 0.99 * bound < count <= bound
+
+
+def test_balls_of_a_text_stand_in_the_plane_that_its_reader_faces() -> None:
+    text = Lettering("HI", (3.0, 4.0, 20.0), 5.0, 0.7, None)
+    away = np.array([ball.centre for ball in balls(text)]) - text.centre
+    right, ahead, up = upright_axes(text.heading)
+    assert away @ ahead == pytest.approx(0.0, abs=1e-12)
+    assert (np.ptp(away @ right), np.ptp(away @ up)) == pytest.approx((NARROW_SHARE * 5.0 * 2, 5.0))
