@@ -7,7 +7,14 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from shotc.geom.enclosing import MOST_PIECES, EnclosingShape, UprightPrism, bodies_about
+from shotc.geom.enclosing import (
+    MOST_PIECES,
+    EnclosingShape,
+    UprightPrism,
+    _Aligned,
+    _common,
+    bodies_about,
+)
 from shotc.geom.shapes import BoxShape, CylinderShape
 from shotc.geom.solids import signed_area
 
@@ -114,3 +121,15 @@ def test_a_ring_becomes_at_most_six_pieces(turned_round):
     assert 4 <= len(bodies) <= MOST_PIECES
     rng = np.random.default_rng(1)
     assert all(gap(bodies, p) < 1e-9 for p in inner(stairs, rng))
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize(
+    ("low", "high", "width"), [(1.0, 5.0, 1.0), (0.5, 1.5, 1.0), (-3.0, 0.5, 0.5), (3.0, 4.0, 0.0)]
+)
+def test_the_volume_that_two_boxes_have_in_common(axis: int, low: float, high: float, width: float) -> None:
+    least, most = np.zeros(3), np.full(3, 2.0)
+    one = _Aligned((), (0.0, 0.0, 0.0), (2.0, 2.0, 2.0))
+    least[axis], most[axis] = low, high
+    other = _Aligned((), tuple(least), tuple(most))
+    assert _common(one, other) == _common(other, one) == 4.0 * width

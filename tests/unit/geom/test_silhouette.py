@@ -190,6 +190,8 @@ def test_the_edges_of_a_cylinder_are_its_rims() -> None:
         assert (strip[:, 2] == height).all()
         assert strip[0] == pytest.approx(strip[-1])
         assert np.ptp(strip[:, 0]) == pytest.approx(np.ptp(strip[:, 1]), rel=0.01)
+    square, _ = edge_strips(Cylinder((3.0, -2.0), 5.0, -1.0, 7.0), 4)
+    assert square[:, :2] == pytest.approx(np.array([[8, -2], [3, 3], [-2, -2], [3, -7], [8, -2]]), abs=1e-9)
 
 
 def test_what_is_seen_as_a_triangle_is_an_outline() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from shotc.geom import solids
 from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solid_arrays.points import support
 from shotc.geom.solids import Cylinder, Prism, Solid
 
 ROUND = Cylinder((3.0, -4.0), 6.0, -5.0, 8.0)
@@ -45,3 +46,14 @@ def test_a_point_in_a_cylinder_leaves_by_its_side_or_top_within_an_eighth_of_a_t
     assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
     assert (-gap >= np.minimum(6.0 - out, 8.0 - p[:, 2]) - 1e-9).all()
     assert (-gap <= np.minimum(6.0 - out * cos(pi / 8), 8.0 - p[:, 2]) + 1e-9).all()
+
+
+@pytest.mark.parametrize("solid", [ROUND, SQUARE])
+@pytest.mark.parametrize("count", [2, 6])
+def test_a_gap_is_that_of_the_nearest_point_of_a_set_along_its_normal(solid: Solid, count: int) -> None:
+    middles = points((-40.0, -40.0, -40.0), (40.0, 40.0, 40.0), 60)
+    hulls = middles[:, None] + 4.0 * np.random.default_rng(7).normal(size=(60, count, 3))
+    normals, gap = separate(solid, hulls)
+    least = np.einsum("nmd,nd->nm", hulls, normals).min(axis=1)
+    assert gap == pytest.approx(least - support(solid, normals))
+    assert (gap > 0.0).any()

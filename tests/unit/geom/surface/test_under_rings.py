@@ -42,6 +42,16 @@ def test_on_a_slope_a_corner_is_the_lowest_and_over_a_valley_a_side():
     assert lowest(np.abs(y - 6.0) + 3.0) == pytest.approx(3.0)
 
 
+@pytest.mark.parametrize("first", [0, 1, 2])
+@pytest.mark.parametrize("middle", [(20.0, 0.0), (0.0, 20.0)])
+def test_where_a_side_of_the_ground_crosses_a_ring_it_may_be_the_lowest(first, middle):
+    """Heights rise from 0 to 4 along both sides; the ring reaches 2 m beyond the middle of one."""
+    corners = np.roll(np.array([[0.0, 0.0, 0.0], [40.0, 0.0, 4.0], [0.0, 40.0, 4.0]]), first, axis=0)
+    ring = np.array(middle) + np.array([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
+    found = lowest_under(ground_of(corners, np.array([[0, 1, 2]])), [ring])
+    assert found[0] == pytest.approx(1.8)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_it_is_the_least_of_all_places_in_the_ring(seed):

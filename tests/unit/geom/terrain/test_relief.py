@@ -107,6 +107,15 @@ def test_a_file_that_counts_to_360_degrees_is_found():
     assert one == pytest.approx(other, abs=1e-6)
 
 
+@pytest.mark.parametrize("east", [-120.0, 150.0, 179.95])
+def test_ground_is_found_at_every_longitude_in_files_of_both_ways_to_count(east: float):
+    lat, lon = np.linspace(46.6, 46.76, 81), east + np.linspace(-0.08, 0.08, 81)
+    for x in (lon, lon + (360.0 if east < 0.0 else -360.0)):
+        found = relief_of(level(4326, x, lat), BOX, (46.68, east, 560.0))
+        assert isinstance(found, Relief)
+        assert np.isfinite(height_at(found.ground, np.array([[10.0, 20.0]]))).all()
+
+
 def test_a_file_that_is_elsewhere_is_told_both_places():
     found = fault(level(4326, np.linspace(8.6, 8.7, 50), np.linspace(46.6, 46.7, 50)))
     assert found.kind == "outside"

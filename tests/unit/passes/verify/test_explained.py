@@ -131,6 +131,16 @@ def body(name: str, centre: tuple[float, float, float], *, moves: bool) -> Targe
     return Target(name, centre, CylinderShape(1.0, 6.0), ("targets", name), track)
 
 
+def test_a_target_stands_in_the_way_where_it_is_when_the_drone_comes_by() -> None:
+    """It crosses the course from south to north, in time or late."""
+    one = flight()
+    for first, meets in ((-40.0, True), (0.0, False)):
+        track = Track((0.0, 20.0), ((0.0, first, 30.0), (0.0, first + 80.0, 30.0)))
+        boat = Target("boat", (0.0, first, 30.0), CylinderShape(2.0, 4.0), ("targets", "boat"), track)
+        crossed = JudgedFlight(replace(one.mission, targets=(boat,)), one.drone, one.track)
+        assert ("target boat" in in_the_way(crossed, EAST)) is meets
+
+
 def test_targets_explain_the_way_round_them_where_they_are_then() -> None:
     one = flight()
     near = one.mission.rules.target_clearance + one.drone.radius + NEAR_M

@@ -11,7 +11,8 @@ import pytest
 from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import MissionIR, Zone
-from shotc.ir.path import CAM_YAW, X, Y
+from shotc.ir.path import CAM_YAW, HFOV, X, Y
+from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.course import (
@@ -24,7 +25,10 @@ from shotc.passes.verify.course import (
     _swing,
 )
 from shotc.passes.verify.explained import NEAR_M
+from shotc.passes.verify.shots import _still
+from tests.support.mesh_spaces import made_of
 from tests.support.records import replace
+from tests.support.scenes import house
 from tests.support.tampered_plans import MISSION, PLAN
 
 KEYFRAME = PLAN.keyframes.shots[0].keyframes[0]
@@ -52,6 +56,13 @@ def test_a_keyframe_near_what_it_keeps_clear_of_is_not_free(side: float) -> None
     beside = replace(MISSION, zones=())
     away = tower.kept_clear.radius + MISSION.rules.target_clearance + BODY + aside
     assert free((away, 0.0, 12.0), beside) is (side > 0)
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_keyframe_near_a_building_is_not_free(side: float) -> None:
+    bare = replace(MISSION, zones=(), targets=(), meshes=(made_of(house(8.0, 8.0, 30.0, 30.0)),))
+    away = bare.rules.beside_obstacle(MISSION.drones[0].radius) + NEAR_M + side * 0.01
+    assert free((4.0 + away, 0.0, 20.0), bare) is (side > 0)
 
 
 def flown(t: np.ndarray, rate: np.ndarray, look: float) -> JudgedFlight:
@@ -139,3 +150,18 @@ def test_the_way_that_swings_most_for_its_length_is_told() -> None:
     assert not found.holds
     assert t[2] < found.time < t[3]
     assert found.limit == pytest.approx(SWING_SHARE * 10.0 + UNREPORTED_M)
+
+
+@pytest.mark.parametrize(("channel", "drifts"), [(Y, True), (CAM_YAW, True), (HFOV, True), (None, False)])
+def test_a_camera_that_rests_at_a_keyframe_neither_moves_nor_turns_nor_zooms(
+    channel: int | None, drifts: bool
+) -> None:
+    value = np.tile(PLAN.drones[0].curve(30.0), (2, 1))
+    if channel is not None:
+        value[1, channel] += 0.1
+    curve = quintic_hermite(np.array([30.0, 32.0]), value, np.zeros((2, 7)), np.zeros((2, 7)))
+    flight = JudgedFlight(MISSION, MISSION.drones[0], replace(PLAN.drones[0], curve=curve))
+    phase = Phase("shot", PLAN.keyframes.shots[0].shot.id, 20.0, 40.0)
+    found = _still(flight, KEYFRAME, (30.0, 32.0), (PLAN.keyframes.shots[0].shot, 0, phase))
+    assert found.holds is not drifts
+    assert found.worst == pytest.approx(0.1 if drifts else 0.0, abs=1e-6)

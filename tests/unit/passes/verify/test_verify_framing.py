@@ -15,6 +15,8 @@ from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
 from shotc.ir.promise import Promise
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify
+from shotc.passes.verify.claims import JudgedFlight
+from shotc.passes.verify.reference import held
 from shotc.passes.verify.visible import longest
 from tests.support.records import replace
 from tests.support.scenes import house, turned
@@ -295,3 +297,16 @@ def test_nothing_is_asked_of_a_target_out_of_its_shot() -> None:
     longer = replace(span, start=span.start - 10.0, end=span.end + 10.0)
     for constraint in ("tower in frame", "tower size smallest", "tower screen error"):
         assert claim(with_track(framing=(longer,)), constraint) == claim(PLAN, constraint)
+
+
+def test_a_target_counts_from_its_first_keyframe_to_its_last_with_their_holds() -> None:
+    """Of five keyframes the second to the fourth are of the tower; the second holds before its leg."""
+    placed, track = PLAN.keyframes.shots[0], PLAN.drones[0]
+    (phase,) = (p for p in track.phases if p.shot == placed.shot.id)
+    keyframes = [replace(k, target="tower" if 0 < i < 4 else None) for i, k in enumerate(placed.keyframes)]
+    keyframes[1], keyframes[3] = replace(keyframes[1], hold=1.0), replace(keyframes[3], hold=2.0)
+    t = [k.time for k in track.keyframes]
+    times = np.array([t[0], t[1] - 0.1, t[1], t[2], t[3], t[3] + 1.9, t[3] + 2.1, t[4]])
+    flight = JudgedFlight(MISSION, MISSION.drones[0], track)
+    found = held(flight, replace(placed, keyframes=tuple(keyframes)), phase, "tower", times)
+    assert found.tolist() == [False, False, True, True, True, True, False, False]

@@ -13,7 +13,7 @@ from shotc.geom.pan import slowest
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.verify.pans import PEAK_RATIO, RESHAPED_RATIO, _enough, fastest
+from shotc.passes.verify.pans import PEAK_RATIO, RESHAPED_RATIO, FastestTurn, _enough, fastest
 
 SWEEP = """\
 shotc: 1
@@ -140,3 +140,15 @@ def test_a_shot_is_long_enough_for_its_fastest_turn_and_for_all_of_it() -> None:
     hasty = pan._replace(width=pan.width / 9)
     assert _enough(even, phase, hasty, False) == pytest.approx(3.0 * hasty.pace)
     assert _enough(even, phase, hasty, True) == pytest.approx(3.0 * hasty.pace * RESHAPED_RATIO)
+
+
+def test_a_camera_that_turns_there_and_back_has_turned_twice() -> None:
+    value, none = np.zeros((5, 7)), np.zeros((5, 7))
+    value[:, HFOV], value[1::2, CAM_YAW] = np.radians(70), np.radians(40)
+    curve = quintic_hermite(np.linspace(0.0, 8.0, 5), value, none, none)
+    track = DroneTrajectory("cam", curve, (Phase("shot", "sweep", 0.0, 8.0),), (), ())
+    slow = FastestTurn(1e9, 0.0, None)
+    turned = np.radians(4 * 40) / (2 * np.tan(np.radians(35)))
+    assert _enough(track, track.phases[0], slow, False) == pytest.approx(
+        PEAK_RATIO * turned * slowest(None), rel=1e-3
+    )

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.centroids import centroids, halved, view_plane, viewpoint_centroids
+from shotc.show.geom.centroids import _Nearest, centroids, halved, view_plane, viewpoint_centroids
 from tests.support.goal_costs import coverage
 
 EYE = np.array([80.0, 0.0, 0.0])
@@ -60,6 +60,18 @@ def test_every_point_is_of_its_nearest_goal() -> None:
     found = centroids(points, 150)
     distance = np.linalg.norm(points - found.goals[found.labels], axis=1)
     assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
+
+
+@pytest.mark.parametrize("jump", [3.0, 9.0, 30.0])
+def test_a_goal_that_jumps_from_afar_takes_the_points_that_it_comes_to(jump: float) -> None:
+    """A row of goals, of which the last one moves past all that are not its neighbours."""
+    goals = np.column_stack([np.arange(40.0), np.zeros((40, 2))])
+    points = goals + np.array([0.3, 0.2, 0.0])
+    near, step = _Nearest(points, goals), np.zeros((40, 3))
+    step[-1, 0] = -jump - 0.5
+    moved = near.follow(goals, step)
+    distance = np.linalg.norm(points - moved[near.in_order()], axis=1)
+    assert distance == pytest.approx(cKDTree(moved).query(points)[0])
 
 
 @pytest.mark.slow

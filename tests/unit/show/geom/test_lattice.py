@@ -93,3 +93,14 @@ def test_a_lattice_lies_in_its_box_about_its_first_corner() -> None:
     rows = {round(float(y), 9): sorted(hexagons[hexagons[:, 1] == y, 0].tolist()) for y in hexagons[:, 1]}
     assert [*rows] == pytest.approx([-1.0 + k * sqrt(3.0) / 2.0 for k in range(5)])
     assert [*rows.values()] == [[3.0, 4.0, 5.0], [3.5, 4.5]] * 2 + [[3.0, 4.0, 5.0]]
+
+
+@pytest.mark.parametrize("upright", [False, True])
+def test_a_lattice_fills_its_mould_from_end_to_end(upright: bool) -> None:
+    bar = np.column_stack([np.linspace(0.0, 12.0, 121), np.zeros((121, 2))])
+    slack = 1.5
+    found = laid(Mould(cKDTree(bar), slack, upright), 1.0)
+    assert found[:, 0].min() < 1.0 - slack
+    assert found[:, 0].max() > 12.0 + slack - 1.0
+    assert found[:, 1].min() < 0.0 < found[:, 1].max()
+    assert np.linalg.norm(found[:, None] - bar, axis=2).min(axis=1).max() <= slack
