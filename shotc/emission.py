@@ -138,15 +138,15 @@ def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:
             emitter.prepare()
     plan, ordered = orders[i].recv()
     outcomes = {emitter.name: _outcome(emitter, plan) for emitter in emitters if emitter.name in ordered}
-    return {name: made for name, made in outcomes.items() if isinstance(made, Emission)}
+    return {name: emission for name, emission in outcomes.items() if isinstance(emission, Emission)}
 
 
 def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:
     try:
-        made: Any = emitter.emit(plan)
+        emission: Any = emitter.emit(plan)
     except Exception as fault:  # noqa: BLE001  a plugin may raise anything
         return fault
-    return _wrong(made) or made
+    return _wrong(emission) or emission
 
 
 def _wrong(made: Any) -> str:

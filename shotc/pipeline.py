@@ -116,8 +116,8 @@ def passes_of(steps: Sequence[RouteStep], setting: PassSettings) -> tuple[AnyPas
 
 def _made(step: RouteStep, setting: PassSettings) -> AnyPass:
     module, _, name = step.home.partition(":")
-    made: AnyPass = getattr(import_module(module), name)(*(getattr(setting, o) for o in step.options))
-    return made
+    single_pass: AnyPass = getattr(import_module(module), name)(*(getattr(setting, o) for o in step.options))
+    return single_pass
 
 
 def run(

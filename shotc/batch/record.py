@@ -72,9 +72,9 @@ def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | 
     """
     with suppress(OSError, KeyError, TypeError, ValueError):
         outcome = MissionOutcome(**entry["outcome"])
-        kept = [(folder_of(outcome, root), each) for each in entry["written"]]
-        kept += [(job.folder, each) for each in entry["read"]]
-        if all(_digest(folder / name) == digest for folder, (name, digest) in kept):
+        files = [(folder_of(outcome, root), each) for each in entry["written"]]
+        files += [(job.folder, each) for each in entry["read"]]
+        if all(_digest(folder / name) == digest for folder, (name, digest) in files):
             return outcome
     return None
 

@@ -99,11 +99,11 @@ def compare(
         comparison = _shown(done)
         from shotc.comparison.outputs import artifacts
 
-        made = artifacts(comparison, progress)
+        emission = artifacts(comparison, progress)
     paths, faults = write(
-        made.artifacts, output or Path("out") / file_name(comparison.mission.name) / "compare"
+        emission.artifacts, output or Path("out") / file_name(comparison.mission.name) / "compare"
     )
-    console.report((*done.diagnostics, *made.diagnostics, *faults), done.sources)
+    console.report((*done.diagnostics, *emission.diagnostics, *faults), done.sources)
     console.out(_printed(comparison, format, paths))
     raise typer.Exit(console.exit_code(faults))
 

@@ -96,11 +96,11 @@ def report(
     A quiet run shows errors, but no warnings.
     """
     stream = stream or sys.stderr
-    shown = [d for d in diagnostics if not _settings.quiet or severity_of(d) is Severity.ERROR]
-    if shown:
+    printed = [d for d in diagnostics if not _settings.quiet or severity_of(d) is Severity.ERROR]
+    if printed:
         from shotc.diag.render.text import render
 
-        _write(stream, render(shown, sources, color=colored(stream)))
+        _write(stream, render(printed, sources, color=colored(stream)))
 
 
 def exit_code(diagnostics: Iterable[Diagnostic]) -> int:

@@ -50,8 +50,8 @@ def _discs(claim: Claim) -> str:
 
 
 def _value(claim: Claim, unit: str, digits: int, ending: str) -> str:
-    shown = f"{at_least(claim.worst, digits)} {unit}" if isfinite(claim.worst) else "any size"
-    return f"{shown} ({claim.constraint.removesuffix(ending)}, shot {claim.shot})"
+    worst = f"{at_least(claim.worst, digits)} {unit}" if isfinite(claim.worst) else "any size"
+    return f"{worst} ({claim.constraint.removesuffix(ending)}, shot {claim.shot})"
 
 
 def _worst(claims: list[Claim], ending: str) -> Claim | None:

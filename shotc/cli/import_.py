@@ -125,13 +125,13 @@ def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
     named = there or f"{safe(Path(file).stem, 'show')}{suffix_of(file)}"
     show = imported_show(data, file, named, strict=strict)
     pads = () if show.pads is None else (show.pads,)
-    kept = KeptFiles(dict(pads), ((named, ""),), {})
-    text = _accepted(show.made, file, kept)
+    files = KeptFiles(dict(pads), ((named, ""),), {})
+    text = _accepted(show.made, file, files)
     beside = [*pads, *([] if there else [(named, data)])]
     _save(text, output, beside)
-    made = show.made
+    mission = show.made
     console.note(
-        f"imported {_counted(made.drones, 'drone')}; {_counted(len(made.diagnostics), 'assumption')}"
+        f"imported {_counted(mission.drones, 'drone')}; {_counted(len(mission.diagnostics), 'assumption')}"
     )
 
 

@@ -54,8 +54,8 @@ def plan_many(
     batch = _Batch(jobs, root)
     with Progress() as progress, at_work():
         progress(f"0 of {len(jobs)} missions")
-        for made in as_done(planned, batch.left, hands or cores()):
-            batch.take(made)
+        for planned_mission in as_done(planned, batch.left, hands or cores()):
+            batch.take(planned_mission)
             progress(f"{len(batch.outcomes)} of {len(jobs)} missions")
     batch.record.file.forget()
     console.out("\n".join(_lines(batch, gathered)))

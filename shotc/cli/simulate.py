@@ -160,10 +160,10 @@ def simulate(
         )
         conditions = _conditions(proved, options, workers)
         done, unfinished = _flown(proved, options, conditions, workers or jobs or cores(), progress)
-        made = artifacts(done, proved.plan, progress)
-    paths, faults = write(made.artifacts, proved.folder)
+        emission = artifacts(done, proved.plan, progress)
+    paths, faults = write(emission.artifacts, proved.folder)
     unfinished.file.forget()
-    _report(done, (*made.diagnostics, *faults), proved.sources, paths, format)
+    _report(done, (*emission.diagnostics, *faults), proved.sources, paths, format)
 
 
 class _Proved(NamedTuple):

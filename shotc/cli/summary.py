@@ -92,8 +92,8 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     head = ("drone", "shot", "kind", "from", "lasts", "target", in_frame, "visible", "screen error", "size")
     covered = any(row[head.index("visible")] not in ("-", WHOLE) for row in rows)
     known = {"drone": len(plan.trajectory.drones) == 1, "target": not several, "visible": not covered}
-    shown = [k for k, name in enumerate(head) if not known.get(name)]
-    return [tuple(row[k] for k in shown) for row in (head, *rows)]
+    columns = [k for k, name in enumerate(head) if not known.get(name)]
+    return [tuple(row[k] for k in columns) for row in (head, *rows)]
 
 
 def _framing(summary: ScreenSummary) -> tuple[str, str, str, str]:
@@ -114,12 +114,12 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("energy", text) for text in _energy(plan)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
-    ways = {method: sum(c.method == method for c in hard) for method in ("bounded", "exact", "sampled")}
+    counts = {method: sum(c.method == method for c in hard) for method in ("bounded", "exact", "sampled")}
     facts.append(
         (
             "proof",
-            f"{len(hard)} requirements hold: {ways['bounded']} at every instant, "
-            f"{ways['exact']} by arithmetic, {ways['sampled']} at every output sample",
+            f"{len(hard)} requirements hold: {counts['bounded']} at every instant, "
+            f"{counts['exact']} by arithmetic, {counts['sampled']} at every output sample",
         )
     )
     mission, flown = plan.trajectory.keyframes.mission, plan.trajectory

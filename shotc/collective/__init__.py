@@ -137,10 +137,12 @@ def _choices(homing: Homing, time: float, first: FleetReturn) -> Iterator[FleetR
     yield first
     if first.track is None:
         return
-    ways = [fleet_return for fleet_return in homing.ways(time) if fleet_return.holds]
-    yield from ways[1:]
+    returns = [fleet_return for fleet_return in homing.ways(time) if fleet_return.holds]
+    yield from returns[1:]
     for seconds in WAITS_S:
-        yield from (later for fleet_return in ways if (later := homing.waiting(fleet_return, seconds)).holds)
+        yield from (
+            later for fleet_return in returns if (later := homing.waiting(fleet_return, seconds)).holds
+        )
 
 
 def _clear(

@@ -22,19 +22,19 @@ def artifacts(comparison: Comparison, progress: Callable[[str], None]) -> Emissi
     All but the recording are reproducible. differences.png exists if two conditions have a plan. The
     recording is left out with a warning if rerun is not installed.
     """
-    made = [
+    files = [
         Artifact("compare.json", json_text(comparison, seconds=False).encode("ascii")),
         Artifact("compare.md", markdown(comparison, seconds=False).encode("utf-8")),
     ]
     progress("drawing compare.png")
-    made.append(Artifact("compare.png", draw_comparison(comparison, DPI)))
+    files.append(Artifact("compare.png", draw_comparison(comparison, DPI)))
     if comparison.differences:
         progress("drawing differences.png")
-        made.append(Artifact("differences.png", draw_differences(comparison, DPI)))
+        files.append(Artifact("differences.png", draw_differences(comparison, DPI)))
     if find_spec("rerun") is None:
-        return Emission(tuple(made), (plugins.not_installed("P005", "output `compare.rrd`", ["rerun"]),))
+        return Emission(tuple(files), (plugins.not_installed("P005", "output `compare.rrd`", ["rerun"]),))
     from shotc.emit.rerun_log.side_by_side import record_comparison
 
     progress("recording compare.rrd")
-    made.append(Artifact("compare.rrd", record_comparison(comparison, markdown(comparison, seconds=False))))
-    return Emission(tuple(made))
+    files.append(Artifact("compare.rrd", record_comparison(comparison, markdown(comparison, seconds=False))))
+    return Emission(tuple(files))

@@ -92,15 +92,17 @@ def _floor(mission: MissionIR, fleet: str, place: Vec2) -> float:
 
 
 def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audience:
-    away = cloud - np.array(eye)
+    offset = cloud - np.array(eye)
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0 - np.array(eye)
     yaw = atan2(middle[1], middle[0]) if hypot(middle[0], middle[1]) > 1e-6 else pi / 2
     pitch = atan2(middle[2], hypot(middle[0], middle[1]))
     # The middle of the view is midway between the outermost angles; the middle of the bounding box is only
     # the first guess.
     for _ in range(3):
-        right, down, forward = view(yaw, pitch, pi / 2, 1.0).to_camera((away[:, 0], away[:, 1], away[:, 2]))
-        ahead = np.maximum(forward, 0.05 * np.linalg.norm(away, axis=1) + 1e-9)
+        right, down, forward = view(yaw, pitch, pi / 2, 1.0).to_camera(
+            (offset[:, 0], offset[:, 1], offset[:, 2])
+        )
+        ahead = np.maximum(forward, 0.05 * np.linalg.norm(offset, axis=1) + 1e-9)
         across, up = right / ahead, -down / ahead
         yaw -= atan((across.max() + across.min()) / 2.0)
         pitch += atan((up.max() + up.min()) / 2.0)

@@ -77,9 +77,9 @@ def _lines(header: str, ir: TrajectoryIR) -> Iterator[bytes]:
     """Yield the table drone by drone, sorted by name."""
     mission = ir.keyframes.mission
     filmed = sorted((track.drone, "\n".join(_motion(mission, track))) for track in ir.drones)
-    shown = [fleet_rows(mission, fleet) for fleet in ir.fleets]
+    fleets = [fleet_rows(mission, fleet) for fleet in ir.fleets]
     yield header.encode() + b"\n"
-    for _, rows in merge(filmed, *shown, key=lambda block: block[0]):
+    for _, rows in merge(filmed, *fleets, key=lambda block: block[0]):
         yield rows.encode() + b"\n"
 
 

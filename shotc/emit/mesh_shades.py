@@ -42,8 +42,8 @@ def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
         *(_whole(mesh) if mesh.spacing <= 0.0 else _planes(_turned(mesh, eye)) for mesh in meshes),
     ]
     triangles, normal, middle = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    away = np.einsum("nd,nd->n", normal, eye - middle) < 0.0
-    normal[away] *= -1.0
+    turned_away = np.einsum("nd,nd->n", normal, eye - middle) < 0.0
+    normal[turned_away] *= -1.0
     light = np.clip(LEVEL + CONTRAST * (normal @ LIGHT), 0.45, 1.3)
     return Faces(triangles, shades(np.array(STONE), light))
 

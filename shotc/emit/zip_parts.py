@@ -13,11 +13,11 @@ READABLE = 0o644 << 16
 
 def entry(name: str, method: int = ZIP_DEFLATED) -> ZipInfo:
     """Return the header of a member, independent of time and machine."""
-    made = ZipInfo(name, EPOCH)
-    made.compress_type = method
-    made.create_system = 3  # Unix, whatever the machine is
-    made.external_attr = READABLE
-    return made
+    info = ZipInfo(name, EPOCH)
+    info.compress_type = method
+    info.create_system = 3  # Unix, whatever the machine is
+    info.external_attr = READABLE
+    return info
 
 
 class _Pipe:

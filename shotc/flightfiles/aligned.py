@@ -184,10 +184,10 @@ def _met(placed: PlacedShot, curve: Piecewise, phase: Phase) -> list[KeyframeTim
     count = max(2, int((phase.end - phase.start) / STEP_S) + 1)
     times = np.linspace(phase.start, phase.end, count)
     places = curve(times)[:, :3]
-    away = np.array([np.sum((places - np.array(k.at)) ** 2, axis=1) for k in placed.keyframes])
-    best = away[:1].copy()
+    squares = np.array([np.sum((places - np.array(k.at)) ** 2, axis=1) for k in placed.keyframes])
+    best = squares[:1].copy()
     chosen: list[Array] = []
-    for row in away[1:]:
+    for row in squares[1:]:
         least = np.minimum.accumulate(best[-1])
         at = np.maximum.accumulate(np.where(best[-1] == least, np.arange(count), 0))
         chosen.append(at)

@@ -122,28 +122,28 @@ def course_of(
     landing = None if plan.landing is None else _place(mission, geo, plan.landing, drone)
     if isinstance(landing, Refused):
         return files[-1], landing
-    kept = [placed[0]]
+    distinct = [placed[0]]
     for point, file, at in placed[1:]:
-        if float(np.linalg.norm(at - kept[-1][2])) < SAME_M:
-            stays = kept.pop()[0].stay + point.stay
-            kept.append((point._replace(stay=stays, stops=True), file, at))
+        if float(np.linalg.norm(at - distinct[-1][2])) < SAME_M:
+            stays = distinct.pop()[0].stay + point.stay
+            distinct.append((point._replace(stay=stays, stops=True), file, at))
         else:
-            kept.append((point, file, at))
-    points = np.array([at for _, _, at in kept])
-    models = _models([point for point, _, _ in kept], points, plan)
+            distinct.append((point, file, at))
+    points = np.array([at for _, _, at in distinct])
+    models = _models([point for point, _, _ in distinct], points, plan)
     parts = [
-        *_approach(drone, plan, kept[0][:2], (points[0], len(models))),
-        *_legs(drone, plan, kept, [legs for _, legs in models]),
+        *_approach(drone, plan, distinct[0][:2], (points[0], len(models))),
+        *_legs(drone, plan, distinct, [legs for _, legs in models]),
     ]
     away = None
     if landing is not None and plan.landing is not None:
         away = float(np.linalg.norm(landing[:2] - np.array(drone.home[:2])))
-        to = (plan.landing, kept[-1][1])
+        to = (plan.landing, distinct[-1][1])
         parts += _landing(drone, (points[-1], landing), to, (len(models), away))
-    ways, legs = _timed(parts)
+    curves, legs = _timed(parts)
     names = [name for name, _ in models]
     return UntimedFlight(
-        drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, ways, strict=True)), legs, away
+        drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, curves, strict=True)), legs, away
     )
 
 
@@ -163,11 +163,11 @@ def _place(mission: MissionIR, geo: Geo, point: FlightPoint, drone: Drone) -> Ar
     """Return a point in W, shape (3,); refuse one that is far from the pad."""
     height = point.height - (geo.home_alt if point.level == "sea" else 0.0)
     place = geo.point(GeoPosition(point.lat, point.lon, height))
-    away = float(np.linalg.norm(place - np.array(drone.home)))
-    if away > FAR_M:
+    distance = float(np.linalg.norm(place - np.array(drone.home)))
+    if distance > FAR_M:
         turned = geo.point(GeoPosition(max(min(point.lon, 89.0), -89.0), point.lat, height))
         near = float(np.linalg.norm(turned - np.array(drone.home))) < FAR_M
-        message = f"{point.name} is {away / 1000:.0f} km from the pad of `{drone.name}`"
+        message = f"{point.name} is {distance / 1000:.0f} km from the pad of `{drone.name}`"
         help_ = "its latitude and longitude are exchanged" if near else "see world.origin of the mission"
         return Refused(FAR, message, point.node, help_)
     if point.level == "ground":
@@ -289,12 +289,12 @@ def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[UntimedLeg, .
         UntimedLeg(start, end, part.to[0], part.to[1], part.speed, part.phase, part.within)
         for (start, end), part in zip(spans, parts, strict=True)
     )
-    ways = []
+    curves = []
     for k in range(len(parts[0].ctrl)):
         breaks: list[NDArray[np.float64]] = [ends[:1]]
         for (start, end), part in zip(spans, parts, strict=True):
             inner = [CURVE_SHARE, 1.0 - CURVE_SHARE, 1.0] if len(part.ctrl[k]) == 3 else [1.0]
             breaks.append(start + (end - start) * np.array(inner))
             breaks[-1][-1] = end
-        ways.append(Piecewise(np.concatenate(breaks), np.concatenate([part.ctrl[k] for part in parts])))
-    return ways, legs
+        curves.append(Piecewise(np.concatenate(breaks), np.concatenate([part.ctrl[k] for part in parts])))
+    return curves, legs

@@ -68,10 +68,10 @@ def judged(
 
 def placed(flown: ClockedFlight, stated: Claim) -> FileClaim:
     """Return a claim with its place in the file; it holds up to the file's uncertainty."""
-    kept = to_tolerance(stated, {"m": flown.leeway.place})
+    claim = to_tolerance(stated, {"m": flown.leeway.place})
     if stated.time is None:
-        return FileClaim(kept, None)
-    return FileClaim(kept, flown.at(stated.time), when(flown, stated.time))
+        return FileClaim(claim, None)
+    return FileClaim(claim, flown.at(stated.time), when(flown, stated.time))
 
 
 def _motion(flight: JudgedFlight, flown: ClockedFlight) -> Iterator[FileClaim]:
@@ -90,11 +90,11 @@ def _claims(
 ) -> Iterator[Claim]:
     """Yield the claims of verification on a flight with a given curve; on shots only if they are aligned."""
     curve, drone = flight.track.curve, flight.drone
-    away = float(np.linalg.norm(curve(curve.start)[:3] - np.array(drone.home)))
+    distance = float(np.linalg.norm(curve(curve.start)[:3] - np.array(drone.home)))
     yield claim(
         flight,
         Limit("distance from home", AT_PAD_M, "m", (*drone.path, "home")),
-        WorstValue(away, 0.0, "exact"),
+        WorstValue(distance, 0.0, "exact"),
     )
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
     yield claim(

@@ -195,5 +195,5 @@ def apart_at_any_time(mission: MissionIR, one: UntimedFlight, name: str, other: 
     meeting = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
     limit = Limit(f"separation from {name}", least, "m", ("rules", "separation"), upper=False)
     flight = _flight(mission, one, one.ways[0][1])
-    kept = to_tolerance(claim(flight, limit, WorstValue(meeting.proven, meeting.one)), TOLERANCES)
-    return _file_claim(one, kept)
+    separation = to_tolerance(claim(flight, limit, WorstValue(meeting.proven, meeting.one)), TOLERANCES)
+    return _file_claim(one, separation)

@@ -137,11 +137,11 @@ def named(
 
 def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
     """Report a flight that is far from its pad."""
-    away = np.linalg.norm(flight.curve.ctrl - np.array(pad), axis=2)
-    piece = int(np.argmax(away.max(axis=1)))
-    if away[piece].max() <= FAR_M:
+    distances = np.linalg.norm(flight.curve.ctrl - np.array(pad), axis=2)
+    piece = int(np.argmax(distances.max(axis=1)))
+    if distances[piece].max() <= FAR_M:
         return None
-    kilometres = away[piece].max() / 1000
+    kilometres = distances[piece].max() / 1000
     where = flight.at(float(flight.curve.breaks[piece + 1]))
     text = f"`{flight.file}` cannot be judged: `{flight.name}` is {kilometres:.0f} km from its pad there"
     help_ = "see the origin and the units of the file, and world.origin of the mission"
@@ -155,9 +155,9 @@ def _by_pads(flights: Sequence[ClockedFlight], pads: dict[str, Vec3]) -> list[Cl
 
 
 def _on_its_pad(flight: ClockedFlight, pads: dict[str, Vec3]) -> ClockedFlight:
-    away = np.linalg.norm(np.array(list(pads.values())) - flight.curve.ctrl[0, 0], axis=1)
-    nearest = int(np.argmin(away))
-    stands = flight.show and away[nearest] <= ON_PAD_M
+    distances = np.linalg.norm(np.array(list(pads.values())) - flight.curve.ctrl[0, 0], axis=1)
+    nearest = int(np.argmin(distances))
+    stands = flight.show and distances[nearest] <= ON_PAD_M
     return replace(flight, name=list(pads)[nearest]) if stands else flight
 
 

@@ -126,11 +126,11 @@ def _pads(swarm: Swarm) -> Iterator[FileClaim]:
     ends = [(0.0, f.curve.ctrl[0, 0], k) for k, f in enumerate(swarm.flights)]
     if fleet.returns == "own":
         ends += [(f.curve.end, f.curve.ctrl[-1, -1], k) for k, f in enumerate(swarm.flights)]
-    away = [float(norm(place - swarm.pads[k])) for _, place, k in ends]
-    worst = int(np.argmax(away))
+    distances = [float(norm(place - swarm.pads[k])) for _, place, k in ends]
+    worst = int(np.argmax(distances))
     time, _, k = ends[worst]
     home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
-    yield _file_claim(swarm, home, ProvedExtreme(away[worst], away[worst], time), k)
+    yield _file_claim(swarm, home, ProvedExtreme(distances[worst], distances[worst], time), k)
     airborne = np.array([down - up for up, down in map(_moving, swarm.flights)])
     k = int(np.argmax(airborne))
     endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))

@@ -91,15 +91,15 @@ def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
     """Yield notes on how each waypoint flight was rebuilt, and what is not judged."""
     for course in courses:
         name, files = course.drone.name, ", ".join(f"`{file}`" for file in course.files)
-        ways = [curve_name for curve_name, _ in course.ways]
+        names = [curve_name for curve_name, _ in course.ways]
         curves = (
             ""
-            if len(ways) == 1
-            else f" and on {len(ways) - 1} curves more ({ways[1]}, ...), the worst counts"
+            if len(names) == 1
+            else f" and on {len(names) - 1} curves more ({names[1]}, ...), the worst counts"
         )
         yield f"{name}: {files}, {len(course.plan.points)} waypoints, flown by {course.plan.pilot}"
-        yield f"{name}: up straight from the pad, over to the first waypoint, then on {ways[0]}{curves}"
-        if len(ways) > 1:
+        yield f"{name}: up straight from the pad, over to the first waypoint, then on {names[0]}{curves}"
+        if len(names) > 1:
             yield f"{name}: speeds are judged on straight legs; nobody has published them on curves"
         slow = sum(leg.speed is None for leg in course.legs if leg.phase == "transit" and leg.within)
         if slow:

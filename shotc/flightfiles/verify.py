@@ -119,11 +119,11 @@ def _owned(
     faults = (*faults, *(_nowhere(mission) if plain else ()))
     courses: list[UntimedFlight] = []
     for own in owned if not faults else ():
-        made = _course(mission, own, [reads[plain[i]] for i in own.files])
-        if isinstance(made, UntimedFlight):
-            courses.append(made)
+        course = _course(mission, own, [reads[plain[i]] for i in own.files])
+        if isinstance(course, UntimedFlight):
+            courses.append(course)
         else:
-            faults = (*faults, made)
+            faults = (*faults, course)
     flights: list[ClockedFlight] = []
     for i, each in enumerate(reads):
         made_of = _clocked(mission, each, drones[i] if drones else "")
@@ -238,8 +238,8 @@ def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> UntimedFli
     if any(each.family != plan.family for each in plans):
         message = f"the files of `{own.drone.name}` are of different machines"
         return Diagnostic(BROKEN, message, (label(reads[-1].file, plans[-1].node),))
-    made = course_of(mission, own.drone, plan, of_file)
-    return made if isinstance(made, UntimedFlight) else _refused(*made)
+    course = course_of(mission, own.drone, plan, of_file)
+    return course if isinstance(course, UntimedFlight) else _refused(*course)
 
 
 def _refused(file: str, why: Refused) -> Diagnostic:

@@ -67,9 +67,9 @@ def as_printed(camera: CameraPose, cylinders: Mapping[int, Upright] | Sequence[U
     centres = np.array([cylinders[n].middle for n in numbers]).reshape(-1, 3)
     eyes = camera.view
     ahead = np.array([eyes.cos_pitch * eyes.cos_yaw, eyes.cos_pitch * eyes.sin_yaw, eyes.sin_pitch])
-    away = centres - np.array(camera.eye)
-    along = away @ ahead
+    offset = centres - np.array(camera.eye)
+    along = offset @ ahead
     if not (along > 0.0).any():
         return None
-    off = np.linalg.norm(away - along[:, None] * ahead, axis=1)
+    off = np.linalg.norm(offset - along[:, None] * ahead, axis=1)
     return numbers[int(np.where(along > 0.0, off, np.inf).argmin())]

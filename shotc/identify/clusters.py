@@ -63,10 +63,10 @@ def clusters(points: Points) -> IntArray:
     if not len(points):
         return np.zeros(0, dtype=np.intp)
     cells = np.column_stack([np.floor(points.point / VOXEL_M).astype(np.int64), points.owner])
-    _, kept, of = np.unique(cells, axis=0, return_index=True, return_inverse=True)
-    linked = _linked(points.point[kept], points.footprint[kept], points.owner[kept])
+    _, first, of = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    linked = _linked(points.point[first], points.footprint[first], points.owner[first])
     label = linked[of.ravel()]
-    counts = np.bincount(label[points.within()], minlength=len(kept))
+    counts = np.bincount(label[points.within()], minlength=len(first))
     rank = np.full(len(counts), LOOSE)
     large = np.flatnonzero(counts >= LEAST_POINTS)
     rank[large[np.argsort(-counts[large], kind="stable")]] = np.arange(len(large))

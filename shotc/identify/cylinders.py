@@ -66,17 +66,17 @@ def printed(points: Array, ground: float) -> Upright:
     distance as the radius; it is halved here.
     """
     corners = _outermost(points[:, :2])
-    away = np.linalg.norm(corners[:, None] - corners[None], axis=-1)
-    i, j = np.unravel_index(int(away.argmax()), away.shape)
+    distances = np.linalg.norm(corners[:, None] - corners[None], axis=-1)
+    i, j = np.unravel_index(int(distances.argmax()), distances.shape)
     middle = 0.5 * (corners[i] + corners[j])
-    circle = Circle((float(middle[0]), float(middle[1])), 0.5 * float(away[i, j]))
+    circle = Circle((float(middle[0]), float(middle[1])), 0.5 * float(distances[i, j]))
     return _upright(circle, points, ground)
 
 
 def outside(circle: Upright, points: Array) -> float:
     """Return the share of points (P, 3) that are farther from a cylinder's axis than its radius."""
-    away = np.hypot(points[:, 0] - circle.centre[0], points[:, 1] - circle.centre[1])
-    return float(np.mean(away > circle.radius * ROUNDING_RATIO + 1e-9))
+    distances = np.hypot(points[:, 0] - circle.centre[0], points[:, 1] - circle.centre[1])
+    return float(np.mean(distances > circle.radius * ROUNDING_RATIO + 1e-9))
 
 
 def _upright(circle: Circle, points: Array, ground: float) -> Upright:

@@ -89,11 +89,13 @@ class SearchResult(NamedTuple):
 
 def find(mission: MissionIR, glances: Sequence[Glance]) -> SearchResult:
     """Return the targets of glances; a cluster that several glances mean is one target."""
-    made = cluster_glances(mission, glances)
-    choices = tuple(by_own_rays(made.points, made.cluster, i) for i in range(len(glances)))
+    clustered = cluster_glances(mission, glances)
+    choices = tuple(by_own_rays(clustered.points, clustered.cluster, i) for i in range(len(glances)))
     meant = dict.fromkeys(choice.cluster for choice in choices if choice is not None)
     return SearchResult(
-        made, choices, tuple(_target(mission, made, glances, (choices, cluster)) for cluster in meant)
+        clustered,
+        choices,
+        tuple(_target(mission, clustered, glances, (choices, cluster)) for cluster in meant),
     )
 
 

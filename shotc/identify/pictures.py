@@ -30,8 +30,8 @@ def picture(mission: MissionIR, camera: CameraPose) -> Array:
     out = np.broadcast_to(np.array(SKY_LOW) * (1 - rows) + np.array(SKY) * rows, (*seen.mesh.shape, 3)).copy()
     on = seen.mesh == ON_GROUND
     with np.errstate(invalid="ignore"):
-        away = np.linalg.norm(seen.point - np.array(camera.eye), axis=-1)[..., None]
-    faded = np.clip(away / FAR_M, 0.0, 1.0)
+        distances = np.linalg.norm(seen.point - np.array(camera.eye), axis=-1)[..., None]
+    faded = np.clip(distances / FAR_M, 0.0, 1.0)
     ground = np.array(GROUND) * (1 - faded) + np.array(GROUND_FAR) * faded
     out[on] = ground[on]
     lit = seen.shade[..., None]

@@ -125,9 +125,9 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     notes = Notes()
     sequences = without_far(sequences_of(root, notes), notes)
     frame = frame_of(sequences, notes)
-    made = written_mission(PurePath(name).stem, root, sequences, frame, notes)
-    if made is None:
+    text = written_mission(PurePath(name).stem, root, sequences, frame, notes)
+    if text is None:
         message = f"`{name}` holds no shooting action that says where it is filmed"
         return Imported(None, (Diagnostic("I003", message, (label(name, root),)),), sources)
     said = assumption_diagnostics(name, notes, strict=strict)
-    return Imported(None if has_errors(said) else made.text, said, sources, made.drones, made.shots)
+    return Imported(None if has_errors(said) else text.text, said, sources, text.drones, text.shots)

@@ -9,5 +9,5 @@ LONGEST_NAME_CHARACTERS = 40
 
 def safe(name: str, otherwise: str = "mission") -> str:
     """Return a name of letters, digits and `-`, or ``otherwise`` if none of these is left."""
-    kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST_NAME_CHARACTERS].strip("-")
-    return kept or otherwise
+    words = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST_NAME_CHARACTERS].strip("-")
+    return words or otherwise

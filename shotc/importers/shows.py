@@ -89,8 +89,8 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
     pads = _pads(show.starts, f"{stem}-pads.csv", notes)
     text = _written(stem, file, show, (pads, _separation(show, notes)), notes)
     said = assumption_diagnostics(name, notes, strict=strict)
-    made = Imported(None if has_errors(said) else text, said, sources, len(show.starts), 1)
-    return ImportedShow(made, pads)
+    mission = Imported(None if has_errors(said) else text, said, sources, len(show.starts), 1)
+    return ImportedShow(mission, pads)
 
 
 def _show_of(result: Found | Refused) -> _Show | Refused:

@@ -54,11 +54,11 @@ def beside_body(target: Target, points: Array, t: Array) -> Array:
     """Return points (M, 3) at mission times (M,) relative to the moving target, put beside the target as it
     is at mission time 0, shape (M, 3).
     """
-    away = np.asarray(points - moved(target, t))
+    offset = np.asarray(points - moved(target, t))
     if target.track is None or not target.shape.turns:
-        return away
+        return offset
     turn = headings(target.track, t) - target.track.heading(0.0)
-    x, y, z = (away - np.array(target.centre)).T
+    x, y, z = (offset - np.array(target.centre)).T
     back = np.column_stack([x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn), z])
     return np.asarray(back + np.array(target.centre))
 

@@ -137,7 +137,6 @@ class Drone(NamedTuple):
         """Its endurance in words, with the energy and the power that it follows from."""
         if self.power is None:
             return f"{self.endurance:.1f} s"
-        usable, kept = self.power.usable / 3600.0, 100 * self.power.reserve
-        return (
-            f"{self.endurance:.1f} s, {usable:.1f} Wh at {self.power.hover:.0f} W hovering, {kept:.0f} % kept"
-        )
+        usable, reserve = self.power.usable / 3600.0, 100 * self.power.reserve
+        hover = f"{usable:.1f} Wh at {self.power.hover:.0f} W hovering"
+        return f"{self.endurance:.1f} s, {hover}, {reserve:.0f} % kept"

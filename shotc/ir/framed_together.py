@@ -56,8 +56,8 @@ def _course(scene: FramedScene) -> StartedFraming:
     points = evenly([minus((p[0], p[1], p[2]), lead.at(t)) for t, p in zip(scene.times, poses, strict=True)])
     eyes = _eyes(scene.times, poses)
     blocked, hidden = scene.shares(eyes)
-    made = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
-    return StartedFraming(made, scene.times, poses, blocked, hidden, scene.lost(eyes))
+    framed = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
+    return StartedFraming(framed, scene.times, poses, blocked, hidden, scene.lost(eyes))
 
 
 class _Opening(NamedTuple):

@@ -135,9 +135,9 @@ def _of_discs(mesh: ObstacleMesh, which: Mask) -> NamedParts:
     loose = without_size(triangles)
     disc = DISC_SPACINGS * mesh.spacing
     if loose.any():
-        kept = splats(triangles[loose, 0], disc, MOST_DISCS)
-        points = np.repeat(kept.middle[:, None, :], 3, axis=1)
+        discs = splats(triangles[loose, 0], disc, MOST_DISCS)
+        points = np.repeat(discs.middle[:, None, :], 3, axis=1)
         triangles = np.concatenate([triangles[~loose], points])
-        part, disc = np.concatenate([part[~loose], part[loose][kept.first]]), kept.size
+        part, disc = np.concatenate([part[~loose], part[loose][discs.first]]), discs.size
     surface = replace(surface_of(triangles), disc=disc)
     return NamedParts(mesh, surface, part[surface.source])

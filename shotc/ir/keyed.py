@@ -92,11 +92,11 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     assert duration is not None
     arrive = _even(shot.keyframes, duration)
     for _ in range(TIMING_ROUNDS):
-        ways = [
+        lengths = [
             _distance(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1]))
             for i in _gaps(shot)
         ]
-        arrive = _by_length(shot.keyframes, duration, ways)
+        arrive = _by_length(shot.keyframes, duration, lengths)
     placed = tuple(
         k._replace(at=place_of(mission, k, start + t)) for k, t in zip(shot.keyframes, arrive, strict=True)
     )

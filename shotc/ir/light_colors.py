@@ -75,13 +75,13 @@ def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
     It is 0 for a drone that a picture leaves dark, and before and after all pictures.
     """
     before, after, share = _rows(lights, t)
-    shown = np.ones((len(lights.colors), len(lights.times)), dtype=np.float32)
+    shares = np.ones((len(lights.colors), len(lights.times)), dtype=np.float32)
     for k, look in enumerate(lights.of):
         if look < 0:
-            shown[:, k] = 0.0
+            shares[:, k] = 0.0
         else:
-            shown[list(lights.looks[look].spare), k] = 0.0
-    return np.asarray(shown[some][:, before] * (1.0 - share) + shown[some][:, after] * share)
+            shares[list(lights.looks[look].spare), k] = 0.0
+    return np.asarray(shares[some][:, before] * (1.0 - share) + shares[some][:, after] * share)
 
 
 def lit_drones(flight: FleetTrajectory, t: Array) -> NDArray[np.bool_]:
@@ -121,9 +121,9 @@ def _stacked(lights: Lights, spots: Spots) -> Levels:
         here = spots.at(when)
         for layer in look.layers:
             colors = _over(colors.astype(np.float32), layer, here, None)
-        kept = (~np.isin(spots.numbers, look.spare))[:, None] * weight[when]
-        total[:, when] += kept[..., None] * colors
-        lit[:, when] += kept
+        weights = (~np.isin(spots.numbers, look.spare))[:, None] * weight[when]
+        total[:, when] += weights[..., None] * colors
+        lit[:, when] += weights
     for layer in lights.over:
         when = np.flatnonzero(_time_weight(layer, spots.times) > 0)
         if len(when):

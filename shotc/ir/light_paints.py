@@ -155,11 +155,11 @@ def _unpacked(rgba: str, shape: tuple[int, int, int, int]) -> NDArray[np.uint8]:
 def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
     """Return the projection of an image from the eye onto every light, bilinear between pixel centres."""
     screen, frames = paint.screen, pixels(paint)
-    away = spots.places - np.array(screen.eye)
-    depth = away @ np.array(screen.forward)
+    offset = spots.places - np.array(screen.eye)
+    depth = offset @ np.array(screen.forward)
     ahead = np.maximum(depth, 1e-6)
-    x = ((away @ np.array(screen.right)) / ahead - screen.left) / screen.width
-    y = 1.0 - ((away @ np.array(screen.up)) / ahead - screen.bottom) / screen.height
+    x = ((offset @ np.array(screen.right)) / ahead - screen.left) / screen.width
+    y = 1.0 - ((offset @ np.array(screen.up)) / ahead - screen.bottom) / screen.height
     inside = (depth > 1e-6) & (np.abs(x - 0.5) <= 0.5 + 1e-6) & (np.abs(y - 0.5) <= 0.5 + 1e-6)
     elapsed = (spots.times - paint.origin) % paint.ends[-1]
     frame = np.minimum(np.searchsorted(paint.ends, elapsed, side="right"), len(paint.ends) - 1)[None, :]

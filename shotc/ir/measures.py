@@ -30,9 +30,9 @@ def measure(value: float, unit: str, digits: int = USUAL_DIGITS) -> str:
 def distinct_measures(first: float, second: float, unit: str) -> tuple[str, str]:
     """Return two values as text by ``measure``, with enough digits to differ."""
     for digits in range(USUAL_DIGITS, MOST_DIGITS):
-        shown = measure(first, unit, digits), measure(second, unit, digits)
-        if shown[0] != shown[1]:
-            return shown
+        texts = measure(first, unit, digits), measure(second, unit, digits)
+        if texts[0] != texts[1]:
+            return texts
     return measure(first, unit, MOST_DIGITS), measure(second, unit, MOST_DIGITS)
 
 

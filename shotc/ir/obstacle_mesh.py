@@ -111,8 +111,8 @@ def obstacle_mesh(
 ) -> ObstacleMesh:
     """Return the mesh of triangles (n, 3, 3), metres of W; parts : part numbers (n,), and names of parts."""
     part, names = parts
-    made = bodies(triangles)
-    return ObstacleMesh(kind, file, surface_of(triangles), part, names, made.body, made.closed, spacing)
+    solids = bodies(triangles)
+    return ObstacleMesh(kind, file, surface_of(triangles), part, names, solids.body, solids.closed, spacing)
 
 
 @lru_cache(maxsize=4)

@@ -61,9 +61,9 @@ def _met(filmed: Target, eyes: Array, centres: Array, t: Array) -> Array:
 
 def _behind(eyes: Array, points: Array, ball: Array, radius: float) -> Mask:
     """Return which lines of sight cross a ball that contains neither of their ends, shape (M,)."""
-    along, away = points - eyes, ball - eyes
+    along, offset = points - eyes, ball - eyes
     square = np.maximum(np.einsum("md,md->m", along, along), 1e-300)
-    share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
-    near = np.linalg.norm(away - share[:, None] * along, axis=1)
-    ends = np.minimum(np.linalg.norm(away, axis=1), np.linalg.norm(ball - points, axis=1))
+    share = np.clip(np.einsum("md,md->m", offset, along) / square, 0.0, 1.0)
+    near = np.linalg.norm(offset - share[:, None] * along, axis=1)
+    ends = np.minimum(np.linalg.norm(offset, axis=1), np.linalg.norm(ball - points, axis=1))
     return np.asarray((near < radius) & (ends >= radius))

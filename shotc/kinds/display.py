@@ -85,8 +85,8 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *_twice(shot, scene), *wrong]
     if faults or isinstance(effects, list):
         return Expansion.of([*faults, *(effects if isinstance(effects, list) else ())])
-    shown = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
-    return Expansion(display=shown._replace(pyro=burning.cues, effects=effects))
+    display = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
+    return Expansion(display=display._replace(pyro=burning.cues, effects=effects))
 
 
 def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> Display:

@@ -22,11 +22,11 @@ def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
     """Return the fault of a place, degrees, that is too far from the origin; else None."""
     if abs(lat - origin.lat_deg) < NEAR_DEG and abs(lon - origin.lon_deg) < NEAR_DEG:
         return None
-    away = _away((origin.lat_deg, origin.lon_deg), (lat, lon))
-    if away <= FARTHEST_M:
+    distance = _away((origin.lat_deg, origin.lon_deg), (lat, lon))
+    if distance <= FARTHEST_M:
         return None
     return Stray(
-        f"the place is {away / 1000:.1f} km away from the world's origin",
+        f"the place is {distance / 1000:.1f} km away from the world's origin",
         f"the origin is at {origin.lat_deg:g}, {origin.lon_deg:g}; the place is at {lat:g}, {lon:g} "
         f"(latitude, longitude), and no more than {FARTHEST_M / 1000:.0f} km apart can be flown",
         _remedy((origin.lat_deg, origin.lon_deg), (lat, lon)),

@@ -111,11 +111,11 @@ def _from_file(shot: FollowPathShot, scene: Scene) -> _Points | Diagnostic:
 
 def _distinct(points: list[Vec3]) -> list[Vec3]:
     """Return the points without those at which the track stands still."""
-    kept = points[:1]
+    distinct = points[:1]
     for p in points[1:]:
-        if dist(kept[-1], p) > 1e-3:
-            kept.append(p)
-    return kept
+        if dist(distinct[-1], p) > 1e-3:
+            distinct.append(p)
+    return distinct
 
 
 def thin(points: list[Vec3], tolerance: float = THINNED_M) -> list[Vec3]:
@@ -123,23 +123,23 @@ def thin(points: list[Vec3], tolerance: float = THINNED_M) -> list[Vec3]:
 
     It is the Ramer-Douglas-Peucker algorithm on parts of bounded length, because it is quadratic.
     """
-    kept: set[int] = {0, len(points) - 1}
+    chosen: set[int] = {0, len(points) - 1}
     for start in range(0, len(points), CHUNK_POINTS):
-        kept |= _corners(points, start, min(start + CHUNK_POINTS, len(points) - 1), tolerance)
-    return [points[i] for i in sorted(kept)]
+        chosen |= _corners(points, start, min(start + CHUNK_POINTS, len(points) - 1), tolerance)
+    return [points[i] for i in sorted(chosen)]
 
 
 def _corners(points: list[Vec3], start: int, end: int, tolerance: float) -> set[int]:
-    kept = {start, end}
+    chosen = {start, end}
     stack = [(start, end)]
     while stack:
         first, last = stack.pop()
         off = [(_off(points[i], points[first], points[last]), i) for i in range(first + 1, last)]
         farthest, corner = max(off, default=(0.0, first))
         if farthest > tolerance:
-            kept.add(corner)
+            chosen.add(corner)
             stack += [(first, corner), (corner, last)]
-    return kept
+    return chosen
 
 
 def _aims(shot: FollowPathShot, scene: Scene, points: list[Vec3]) -> list[Aim] | Diagnostic | Deferred:

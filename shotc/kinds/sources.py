@@ -51,9 +51,9 @@ def picture_of(
         wrong = [one for one in (source, at, wave) if isinstance(one, Diagnostic)]
         return [*wrong, *(effects if isinstance(effects, list) else ())]
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
-    shown = Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
-    shown = shown._replace(at=at, name=spec.name, size=spec.size, effects=effects)
-    return shown._replace(easing=change.easing, wave=wave)
+    picture = Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
+    picture = picture._replace(at=at, name=spec.name, size=spec.size, effects=effects)
+    return picture._replace(easing=change.easing, wave=wave)
 
 
 def _wave(spec: TransitionSpec, scene: Scene, path: KeyPath) -> Wave | Diagnostic | None:

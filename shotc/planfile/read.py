@@ -154,10 +154,12 @@ def _foreign(document: Any, name: str) -> Diagnostic | None:
 
 def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
     label = (Label(name, WHOLE_FILE),)
-    shown = [Diagnostic("E003", f"plan field `{f.path}`: {f.text}", label) for f in faults[:MOST_REPORTED]]
+    reported = [Diagnostic("E003", f"plan field `{f.path}`: {f.text}", label) for f in faults[:MOST_REPORTED]]
     if len(faults) > MOST_REPORTED:
-        shown.append(Diagnostic("E003", f"and {len(faults) - MOST_REPORTED} more faults of this plan", label))
-    return shown
+        reported.append(
+            Diagnostic("E003", f"and {len(faults) - MOST_REPORTED} more faults of this plan", label)
+        )
+    return reported
 
 
 _Spans = tuple[tuple[KeyPath, Span], ...]

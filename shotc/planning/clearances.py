@@ -179,11 +179,11 @@ def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, distance: float) -> Vec2
     foot = closest_on_segment(a, b, p)
     length = dist(a, b)
     outward = ((b[1] - a[1]) / length, (a[0] - b[0]) / length)  # the polygon runs counter-clockwise
-    away = (p[0] - foot[0], p[1] - foot[1])
-    off = hypot(*away)
+    offset = (p[0] - foot[0], p[1] - foot[1])
+    off = hypot(*offset)
     at_corner = foot in (a, b) and off > 1e-9
     if at_corner and distance > 0 and not inside_polygon(solid.points, p):
-        return (foot[0] + away[0] / off * distance, foot[1] + away[1] / off * distance)
+        return (foot[0] + offset[0] / off * distance, foot[1] + offset[1] / off * distance)
     return (foot[0] + outward[0] * distance, foot[1] + outward[1] * distance)
 
 

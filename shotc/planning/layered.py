@@ -158,10 +158,12 @@ def _course(
     price = (shifts**2).sum(axis=1) + np.zeros((len(times), 1))
     if watched is not None:
         far = np.linalg.norm(shifts, axis=1)
-        away = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
-        most = np.where(slack[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # a blocked ideal is left anyway
+        distances = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
+        most = np.where(
+            slack[:, :1] >= 0.0, FOR_SIGHT_SHARE * distances, np.inf
+        )  # a blocked ideal is left anyway
         unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
-        price += (UNSEEN_SHARE * away) ** 2 * unseen
+        price += (UNSEEN_SHARE * distances) ** 2 * unseen
     stay = np.where(slack >= 0.0, price * np.gradient(times)[:, None], BLOCKED_COST)
     if held is not None:
         stay[held & (slack[:, 0] >= 0.0), 1:] = BLOCKED_COST
@@ -198,10 +200,10 @@ def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Arra
     """Return the place of each layer on the cheapest course, (L,), and its cost (Viterbi 1967)."""
     cost, before = stay[0], []
     for k in range(len(step)):
-        ways = cost[:, None] + change / step[k]
-        ways[shut[k]] = BLOCKED_COST
-        before.append(ways.argmin(axis=0))
-        cost = ways.min(axis=0) + stay[k + 1]
+        costs = cost[:, None] + change / step[k]
+        costs[shut[k]] = BLOCKED_COST
+        before.append(costs.argmin(axis=0))
+        cost = costs.min(axis=0) + stay[k + 1]
     chosen = [int(cost.argmin())]
     for came in reversed(before):
         chosen.append(int(came[chosen[-1]]))

@@ -89,15 +89,15 @@ def _space(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> F
     walls : half-spaces that come first
     floors : whether the floors of keep-in zones hold
     """
-    kept = list(around)
+    solids = list(around)
     obstacles = [
         Obstacle(c.owner, bounded(part), c.metres)
-        for c in kept
+        for c in solids
         if not c.inside
         for part in convex_parts(c.solid)
     ]
     discs: list[Disc] = []
-    for c in kept:
+    for c in solids:
         if not c.inside:
             continue
         walls += _lids(c, floors=floors)

@@ -85,6 +85,6 @@ def pads_path(mission: MissionIR, fleet: Fleet) -> KeyPath:
     the layout.
     """
     path = (*fleet.path, "layout")
-    ways = (("grid", "origin"), ("circle", "center"), ("file",))
-    written = ((*path, *key) for key in ways if (*path, *key) in mission.origins.values)
+    keys = (("grid", "origin"), ("circle", "center"), ("file",))
+    written = ((*path, *key) for key in keys if (*path, *key) in mission.origins.values)
     return next(written, path)

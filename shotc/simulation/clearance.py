@@ -57,13 +57,13 @@ def nearest(
     places = at_times(flown.position, flown.times, free)
     flat = places.reshape(-1, 3)
     shape = places.shape[:2]
-    rows = [(name, away.reshape(shape)) for name, away in _standing(mission, drone, flat)]
+    rows = [(name, distances.reshape(shape)) for name, distances in _standing(mission, drone, flat)]
     for target in mission.targets:
         really = at_times(world.places[target.name], world.times, free)
         moved = (places - (really - np.array(target.centre))).reshape(-1, 3)
-        away = signed_distance(target.kept_clear, moved) - drone.radius
-        rows.append((f"target {target.name}", away.reshape(shape)))
-    return [tuple(_least(name, away[:, r], free) for name, away in rows) for r in range(shape[1])]
+        distances = signed_distance(target.kept_clear, moved) - drone.radius
+        rows.append((f"target {target.name}", distances.reshape(shape)))
+    return [tuple(_least(name, distances[:, r], free) for name, distances in rows) for r in range(shape[1])]
 
 
 def between(mission: MissionIR, one: DroneRuns, other: DroneRuns, times: Array) -> list[ClosestApproach]:
@@ -72,23 +72,23 @@ def between(mission: MissionIR, one: DroneRuns, other: DroneRuns, times: Array) 
     """
     a, b = (at_times(f.position, f.times, times) for f in (one, other))
     reach = mission.drone(one.drone).radius + mission.drone(other.drone).radius
-    away = np.linalg.norm(a - b, axis=2) - reach
-    return [_least(f"drone {other.drone}", away[:, r], times) for r in range(away.shape[1])]
+    distances = np.linalg.norm(a - b, axis=2) - reach
+    return [_least(f"drone {other.drone}", distances[:, r], times) for r in range(distances.shape[1])]
 
 
 def _standing(mission: MissionIR, drone: Drone, flat: Array) -> Iterator[tuple[str, Array]]:
     for zone in mission.zones:
-        away = signed_distance(zone.solid, flat)
-        yield f"zone {zone.name}", (away if zone.keep == "out" else -away) - drone.radius
+        distances = signed_distance(zone.solid, flat)
+        yield f"zone {zone.name}", (distances if zone.keep == "out" else -distances) - drone.radius
     terrain = mission.terrain
     ground = 0.0 if terrain is None else height_at(terrain.ground, flat[:, :2])
     yield "ground", flat[:, 2] - np.nan_to_num(ground) - drone.radius
     for mesh in mission.meshes:
-        away = mesh.signed_distance(flat, MESH_LIMIT_M)
-        yield mesh.kind, away - mesh.spacing - drone.radius
+        distances = mesh.signed_distance(flat, MESH_LIMIT_M)
+        yield mesh.kind, distances - mesh.spacing - drone.radius
     for pad in mission.parked:
-        away = np.linalg.norm(flat - np.array(pad.home), axis=1)
-        yield f"drone {pad.name}", away - drone.radius - pad.radius
+        distances = np.linalg.norm(flat - np.array(pad.home), axis=1)
+        yield f"drone {pad.name}", distances - drone.radius - pad.radius
 
 
 def _least(name: str, away: Array, times: Array) -> ClosestApproach:

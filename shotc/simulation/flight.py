@@ -196,9 +196,9 @@ def _demanded(
 
 def _beyond(aim: Array, planned: Array) -> Array:
     """Return angles and rates minus those of the plan, (R, 4), with the yaw wrapped."""
-    away = aim - planned
-    away[:, 0] = wrapped(away[:, 0])
-    return away
+    offset = aim - planned
+    offset[:, 0] = wrapped(offset[:, 0])
+    return offset
 
 
 def _shared(share: Array, away: Array) -> Array:

@@ -195,22 +195,22 @@ def ahead(estimate: Estimate, seconds: Array, model: MotionModel) -> Array:
     """Return predicted position and velocity after times (M,), seconds, shape (M, R, 6), metres and m/s."""
     span, left = model.span(seconds)[:, None, None], np.asarray(seconds)[:, None, None]
     course, beside = estimate.course_velocity, estimate.velocity - estimate.course_velocity
-    kept = 1.0 - span / model.memory
+    decay = 1.0 - span / model.memory
     place = estimate.position + left * course + span * beside
-    return np.concatenate([place, course + kept * beside], axis=2)
+    return np.concatenate([place, course + decay * beside], axis=2)
 
 
 @lru_cache(maxsize=1024)
 def _transition(dt: float, model: MotionModel) -> tuple[Array, Array]:
     """Return F and Q over dt seconds, (12, 12) each."""
-    kept = exp(-dt / BIAS_MEMORY_S)
+    decay = exp(-dt / BIAS_MEMORY_S)
     forward, noise = np.eye(4), np.zeros((4, 4))
-    forward[:3, :3], forward[3, 3] = _forward(dt, model), kept
+    forward[:3, :3], forward[3, 3] = _forward(dt, model), decay
     fresh = np.diag([0.0, model.agility, model.drift])
     for node, weight in zip(NODES, WEIGHTS, strict=True):
         transition = _forward(0.5 * dt * (1.0 + node), model)
         noise[:3, :3] += 0.5 * dt * weight * transition @ fresh @ transition.T
-    noise[3, 3] = model.bias**2 * (1.0 - kept * kept)
+    noise[3, 3] = model.bias**2 * (1.0 - decay * decay)
     return np.asarray(np.kron(forward, np.eye(3))), np.asarray(np.kron(noise, np.eye(3)))
 
 

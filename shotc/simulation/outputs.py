@@ -27,24 +27,24 @@ def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]
     plan : the simulated plan
     """
     described = summary(done)
-    made = [
+    files = [
         Artifact("simulate.json", json_text(done).encode("ascii")),
         report(
             plan, Simulated(described.flown, described.tables, (*described.requirements, *described.notes))
         ),
     ]
     if not done.ir.drones:
-        return Emission((*made, Artifact("simulate.png", draw(done))))
+        return Emission((*files, Artifact("simulate.png", draw(done))))
     progress("flying the worst run again")
     world, worst = flown(done.ir, done.conditions, [done.worst.number])
-    made.append(Artifact("flight.csv", flight_table(done, world, worst).encode()))
+    files.append(Artifact("flight.csv", flight_table(done, world, worst).encode()))
     progress("drawing simulate.png")
-    made.append(Artifact("simulate.png", draw(done)))
+    files.append(Artifact("simulate.png", draw(done)))
     if find_spec("rerun") is None:
         missing = plugins.not_installed("P005", "output `simulate.rrd`", ["rerun"])
-        return Emission(tuple(made), (missing,))
+        return Emission(tuple(files), (missing,))
     from shotc.simulation.recording import recording
 
     progress("recording simulate.rrd")
-    made.append(Artifact("simulate.rrd", recording(done, world, worst)))
-    return Emission(tuple(made))
+    files.append(Artifact("simulate.rrd", recording(done, world, worst)))
+    return Emission(tuple(files))

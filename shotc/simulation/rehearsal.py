@@ -145,8 +145,8 @@ def rehearse(
     flown.sort(key=lambda block: block.runs[0].number)
     runs = tuple(run for block in flown for run in block.runs)
     verdicts_of_runs = verdicts(runs, promise)
-    kept, needed = held(runs, verdicts_of_runs), enough(runs, promise)
-    return Rehearsed(ir, conditions, promise, runs, verdicts_of_runs, kept, needed, _together(flown))
+    fulfilled, needed = held(runs, verdicts_of_runs), enough(runs, promise)
+    return Rehearsed(ir, conditions, promise, runs, verdicts_of_runs, fulfilled, needed, _together(flown))
 
 
 def _together(blocks: list[RunBlock]) -> Strays | None:

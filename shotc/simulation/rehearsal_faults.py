@@ -105,13 +105,13 @@ def _where(run: Run, each: RequirementVerdict) -> Iterator[str]:
 
 def _picture(run: Run, each: RequirementVerdict) -> str:
     if each.key == "in_frame":
-        shown = min(run.pictures, key=lambda p: p.in_frame)
+        worst = min(run.pictures, key=lambda p: p.in_frame)
     elif each.key == "in_sight":
-        shown = min(run.pictures, key=lambda p: p.in_sight)
-        return f"target `{shown.target}` in shot `{shown.shot}`"
+        worst = min(run.pictures, key=lambda p: p.in_sight)
+        return f"target `{worst.target}` in shot `{worst.shot}`"
     else:
-        shown = max(run.pictures, key=lambda p: p.error or 0.0)
-    return f"target `{shown.target}` in shot `{shown.shot}`, worst at {shown.time:.1f} s"
+        worst = max(run.pictures, key=lambda p: p.error or 0.0)
+    return f"target `{worst.target}` in shot `{worst.shot}`, worst at {worst.time:.1f} s"
 
 
 def _help(done: Rehearsed, each: RequirementVerdict) -> str:

@@ -325,8 +325,8 @@ def _appearance(appearances: tuple[Asked, ...], uv: Array | None) -> Appearance:
     A view with a free angle is not constrained.
     """
     place = None if uv is None or np.isnan(uv).any() else (float(uv[0]), float(uv[1]))
-    ways = [viewpoint.direction(*view) for view in map(_both, appearances) if view is not None]
-    return Appearance(place, appearances[0].size, np.array(ways) if ways else None)
+    directions = [viewpoint.direction(*view) for view in map(_both, appearances) if view is not None]
+    return Appearance(place, appearances[0].size, np.array(directions) if directions else None)
 
 
 def _both(appearance: Asked) -> tuple[float, float] | None:

@@ -85,9 +85,11 @@ def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[Requir
         values = [(measure.of(run), run.number) for run in runs]
         ordered = sorted(values, reverse=not measure.upper)  # from best to worst
         worst, number = ordered[-1]
-        kept = ordered[enough(runs, promise) - 1][0]
+        reached = ordered[enough(runs, promise) - 1][0]
         count = sum(_holds(key, run, limit) for run in runs)
-        yield RequirementVerdict(key, limit, measure.upper, count, worst, number, kept, required is not None)
+        yield RequirementVerdict(
+            key, limit, measure.upper, count, worst, number, reached, required is not None
+        )
 
 
 def _holds(key: Key, run: Run, limit: float) -> bool:

@@ -53,10 +53,10 @@ def wandering(noise: Array, share: float) -> Array:
     noise : shape (N, ...), one row for each instant
     share : time between instants over the correlation time
     """
-    kept = exp(-share)
-    fresh = sqrt(1.0 - kept * kept)
+    decay = exp(-share)
+    fresh = sqrt(1.0 - decay * decay)
     out = np.empty_like(noise)
     out[0] = noise[0]
     for k in range(1, len(noise)):
-        out[k] = kept * out[k - 1] + fresh * noise[k]
+        out[k] = decay * out[k - 1] + fresh * noise[k]
     return out

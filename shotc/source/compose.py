@@ -279,8 +279,8 @@ class _Composer:
     def _key_not_text(self, node: Scalar) -> None:
         kind = _kind_of(node)
         hint = f'write it in quotes: "{node.text}"' if len(node.text) < 40 else "write it in quotes"
-        shown = f"'{shorten(node.text)}' is {kind}, and" if node.text else "this is empty, and"
-        self.blame("key-not-text", f"{shown} a key is text", node.start, node.end, hint)
+        written = f"'{shorten(node.text)}' is {kind}, and" if node.text else "this is empty, and"
+        self.blame("key-not-text", f"{written} a key is text", node.start, node.end, hint)
 
     def _duplicate(self, key: Scalar, first: Scalar) -> None:
         line, _ = self.file.position(first.start)

@@ -48,8 +48,8 @@ def _span(item: Any) -> range:
         raise fault("wrong-type", f"expected numbers of drones, got {describe(item)}", _RULE)
     first, last = (int(match[1]), int(match[2])) if match is not None else (item, item)
     if not 1 <= first <= last <= MOST_DRONES:
-        shown = f"`{item}`" if match is not None or abs(first) <= MOST_DRONES else "a number so large"
-        raise fault("out-of-range", f"{shown} is no range of drones", _RULE)
+        quoted = f"`{item}`" if match is not None or abs(first) <= MOST_DRONES else "a number so large"
+        raise fault("out-of-range", f"{quoted} is no range of drones", _RULE)
     return range(first, last + 1)
 
 

@@ -248,16 +248,16 @@ def _off_its_home(ready: Ready, origin: GeoOrigin) -> Iterator[Diagnostic]:
     assert frame is not None
     assert position is not None
     pad = frame.of_places(of_world(np.array([ready.drone.home]), origin))[0]
-    away = dist(position, pad.tolist())
+    distance = dist(position, pad.tolist())
     home = ready.vehicle.home
     if (
-        away > HOME_OFF_M
+        distance > HOME_OFF_M
         and home is not None
         and dist(home_offset(ready, origin), (0.0, 0.0, 0.0)) <= HOME_OFF_M
     ):
         yield Diagnostic(
             "A010",
-            f"the vehicle of `{ready.drone.name}` stands {away:.1f} m from its pad",
+            f"the vehicle of `{ready.drone.name}` stands {distance:.1f} m from its pad",
             (ready.label("home"),),
             (f"by its LOCAL_POSITION_NED; its home is right, and at most {HOME_OFF_M:g} m are flown with",),
             "put it on its pad, and wait until its position is steady",

@@ -283,13 +283,13 @@ def summary(who: Aboard) -> list[tuple[str, str]]:
     origin = who.ready.mission.origin
     assert origin is not None
     assert vehicle.heartbeat is not None
-    away = dist(checks.home_offset(who.ready, origin), (0.0, 0.0, 0.0))
+    distance = dist(checks.home_offset(who.ready, origin), (0.0, 0.0, 0.0))
     after = ", ".join(f"{name} {seconds:g} s" for name, seconds in checks.loss_times(vehicle).items())
     does = ", ".join(f"{action} ({name})" for name, action in checks.actions_of(vehicle).items())
     cuts = [cut for cut in cuts_of(who.track) if cut.on]
     return [
         ("vehicle", f"{vehicle.autopilot.name}, system {vehicle.heartbeat.system}"),
-        ("home", f"{away:.2f} m from its pad"),
+        ("home", f"{distance:.2f} m from its pad"),
         ("link lost", f"{does}; {after}"),
         (
             "setpoints",

@@ -17,15 +17,15 @@ def opened(endpoint: Endpoint) -> socket.socket:
 
     Raises OSError if it cannot be opened.
     """
-    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    made.setblocking(False)
+    endpoint_socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    endpoint_socket.setblocking(False)
     try:
         if not endpoint.calls:
-            made.bind((endpoint.host, endpoint.port))
+            endpoint_socket.bind((endpoint.host, endpoint.port))
     except OSError:
-        made.close()
+        endpoint_socket.close()
         raise
-    return made
+    return endpoint_socket
 
 
 def datagrams(of: socket.socket) -> Iterator[tuple[bytes, tuple[str, int]]]:

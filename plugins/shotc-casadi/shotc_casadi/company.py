@@ -111,8 +111,8 @@ def _near(subject: ShotContext, refined: Refined, plain: Refined) -> bool:
     before, after = plain.camera(s)[:, :3], refined.camera(s)[:, :3]
     named = {k.target for k in subject.placed.keyframes if k.target is not None}
     centres = [np.array(subject.mission.target(name).centre) for name in named]
-    away = np.min([np.linalg.norm(before - centre, axis=1) for centre in centres] or [np.inf], axis=0)
-    return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * away).all())
+    distances = np.min([np.linalg.norm(before - centre, axis=1) for centre in centres] or [np.inf], axis=0)
+    return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * distances).all())
 
 
 def _in_its_time(subject: ShotContext) -> MovingLeg:

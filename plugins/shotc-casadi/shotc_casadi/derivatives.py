@@ -72,20 +72,20 @@ def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, 
     slopes, curvature = _lagrangian(d, stages, over, lam_f, lam_g)
     g, jacobian = _constraints(d, stages, over)
     total, gradient = _costs(d, stages, over)
-    made = [ca.Function("nlp_jac_g", [x, p], [g, jacobian], ["x", "p"], ["g", "jac_g_x"])]
+    functions = [ca.Function("nlp_jac_g", [x, p], [g, jacobian], ["x", "p"], ["g", "jac_g_x"])]
     names, multiplied = ["x", "p", "lam_f", "lam_g"], [x, p, lam_f, lam_g]
     if solver == "fatrop":
         twice, outputs = [slopes, curvature], ["grad_gamma_x", "hess_gamma_x_x"]
-        made += [
+        functions += [
             ca.Function("nlp_grad_f", [x, p], [gradient], ["x", "p"], ["grad_f_x"]),
             ca.Function("nlp_hess_l", multiplied, twice, names, outputs),
         ]
     else:
-        made += [
+        functions += [
             ca.Function("nlp_grad_f", [x, p], [total, gradient], ["x", "p"], ["f", "grad_f_x"]),
             ca.Function("nlp_hess_l", multiplied, [ca.triu(curvature)], names, ["triu_hess_gamma_x_x"]),
         ]
-    return {f.name(): f for f in made}
+    return {f.name(): f for f in functions}
 
 
 def _lagrangian(d: Derived, stages: int, over: _Horizon, lam_f: Any, lam_g: Any) -> tuple[Any, Any]:

@@ -30,17 +30,17 @@ def level_beside(subject: ShotContext, nodes: Stages, camera: Piecewise, given: 
     s = nodes.s[nodes.pins]
     q, references = camera(s), references_at(subject, OURS, s)
     inside = insides(subject, references, s, q)
-    away = np.linalg.norm(references.centre - q[:, :3], axis=1)
+    distances = np.linalg.norm(references.centre - q[:, :3], axis=1)
     half = fields_of_view(subject, s)[1]
     rate, indices = camera.derivative()(s), []
     for k in np.flatnonzero((references.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
         touches = inside[k] < LEAST_HALF_FRAMES
-        slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(away[k]))[touches]
+        slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(distances[k]))[touches]
         # Nobody sees a gain before the first keyframe or after the last one.
         lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
-        if np.abs(lost).max() * away[k] > SLIGHT_HALF_FRAMES:
+        if np.abs(lost).max() * distances[k] > SLIGHT_HALF_FRAMES:
             # A step of the field of view, if the camera has one, is a share of it.
-            unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS_COLUMN:])])
+            unit = np.array([*[distances[k]] * 3, half[k], half[k], *np.sin(q[k, LENS_COLUMN:])])
             by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
             indices.append(int(k))

@@ -50,9 +50,11 @@ def insides(subject: ShotContext, references: References, s: Array, q: Array) ->
     wide, tall = fields_of_view(subject, s, q)
     view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
     metres = np.min([frustum_margins(view, *body) for body in _bodies(references, offset)], axis=0)
-    away = np.linalg.norm(offset, axis=0)
+    distances = np.linalg.norm(offset, axis=0)
     halves = (wide, wide, tall, tall)
-    rows = [(m + ROUNDING_M) * np.hypot(1.0, h) / (h * away) for m, h in zip(metres, halves, strict=True)]
+    rows = [
+        (m + ROUNDING_M) * np.hypot(1.0, h) / (h * distances) for m, h in zip(metres, halves, strict=True)
+    ]
     return np.column_stack(rows)
 
 
@@ -129,7 +131,7 @@ def _allowed(subject: ShotContext, nodes: Stages, s: Array) -> Array:
     pins, q = nodes.s[nodes.pins], curve(nodes.s[nodes.pins])
     at = references_at(subject, OURS, pins)
     own = insides(subject, at, pins, q[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
-    away = np.linalg.norm(at.centre - q[:, :3], axis=1)
-    opened = own + OPENING_HALF_FRAMES * (np.abs(s[:, None] - pins) / away)[:, :, None]
+    distances = np.linalg.norm(at.centre - q[:, :3], axis=1)
+    opened = own + OPENING_HALF_FRAMES * (np.abs(s[:, None] - pins) / distances)[:, :, None]
     opened[:, at.whole == 0] = np.inf
     return np.asarray(opened.min(axis=1))

@@ -194,8 +194,8 @@ def _distance(references: References, reference: Array, stages: Stages) -> Array
     pins = stages.pins[references.framed[stages.pins] > 0]
     if not len(pins):
         return np.full(len(stages.s), 0.2 * float(stages.s[-1] - stages.s[0]))
-    away = np.linalg.norm(references.centre[pins] - reference[pins], axis=1)
-    return np.asarray(np.interp(stages.s, stages.s[pins], away))
+    distances = np.linalg.norm(references.centre[pins] - reference[pins], axis=1)
+    return np.asarray(np.interp(stages.s, stages.s[pins], distances))
 
 
 def _planes(walls: Array, margins: Margins) -> Array:

@@ -120,7 +120,7 @@ def own_angles(subject: ShotContext, keyframe: PlacedKeyframe) -> tuple[float, f
 
 
 def _framed(subject: ShotContext, s: Array) -> References:
-    made = _unframed(subject, s)
+    unframed = _unframed(subject, s)
     keys = keys_of(subject)
     x, i = progress_at(np.array([at for at, _ in keys]), s)
     for k, ((_, a), (_, b)) in enumerate(pairwise(keys)):
@@ -129,15 +129,15 @@ def _framed(subject: ShotContext, s: Array) -> References:
             continue
         share = x[here]
         first, second = subject.mission.target(a.target), subject.mission.target(b.target)
-        made.centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
-        made.radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
-        made.height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
-        bodies = [extents_of(target.shape, made.extents.shape[1], 1) for target in (first, second)]
-        made.extents[here] = between(bodies[0], bodies[1], share)
-        made.place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
-        made.framed[here] = 1.0
-        made.whole[here] = 1.0
-    return made
+        unframed.centre[here] = (1 - share) * np.array(first.centre) + share * np.array(second.centre)
+        unframed.radius[here] = ((1 - share) * first.radius + share * second.radius)[:, 0]
+        unframed.height[here] = ((1 - share) * first.height + share * second.height)[:, 0]
+        bodies = [extents_of(target.shape, unframed.extents.shape[1], 1) for target in (first, second)]
+        unframed.extents[here] = between(bodies[0], bodies[1], share)
+        unframed.place[here] = (1 - share) * np.array(a.reference) + share * np.array(b.reference)
+        unframed.framed[here] = 1.0
+        unframed.whole[here] = 1.0
+    return unframed
 
 
 def _unframed(subject: ShotContext, s: Array) -> References:

@@ -66,18 +66,18 @@ class ConditionRefiner:
             return rejoined(path, cameras), []
         except NoTransit:
             pass
-        kept: dict[str, Piecewise] = {}
+        curves: dict[str, Piecewise] = {}
         unreached: list[Diagnostic] = []
         for refined in done:
             if refined.shot not in cameras:
                 continue
             try:
-                rejoined(path, kept | {refined.shot: cameras[refined.shot]})
+                rejoined(path, curves | {refined.shot: cameras[refined.shot]})
             except NoTransit as fault:
                 unreached.append(impossible(path, state_of(refined, str(fault), self.name)))
             else:
-                kept[refined.shot] = cameras[refined.shot]
-        return rejoined(path, kept), unreached
+                curves[refined.shot] = cameras[refined.shot]
+        return rejoined(path, curves), unreached
 
 
 def subjects(path: PathIR) -> list[ShotContext]:

@@ -65,12 +65,12 @@ def deviation(path: PathIR, refined: Refined) -> list[PathDeviation]:
     assert refined.camera is not None
     leg = leg_of(path, refined.shot)
     s = refined.nodes.s
-    away = np.linalg.norm(refined.camera(s)[:, :3] - leg.curve(s)[:, :3], axis=1)
-    k = int(away.argmax())
-    if away[k] < NOTICE_M:
+    distances = np.linalg.norm(refined.camera(s)[:, :3] - leg.curve(s)[:, :3], axis=1)
+    k = int(distances.argmax())
+    if distances[k] < NOTICE_M:
         return []
     return [
         PathDeviation(
-            refined.shot, float(away[k]), float(refined.nodes.s[k]), "its framing and a smoother flight"
+            refined.shot, float(distances[k]), float(refined.nodes.s[k]), "its framing and a smoother flight"
         )
     ]

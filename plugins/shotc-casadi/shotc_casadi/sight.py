@@ -28,10 +28,10 @@ def sight_point(
     met = [h for h in hits if h is not None and 0.0 < h <= HORIZON_M]
     if met:
         return np.asarray(eye + min(met) * ray)
-    away = 50.0
+    distance = 50.0
     if keyframe.target is not None:
-        away = float(np.linalg.norm(np.array(mission.target(keyframe.target).centre) - eye))
-    return np.asarray(eye + away * ray)
+        distance = float(np.linalg.norm(np.array(mission.target(keyframe.target).centre) - eye))
+    return np.asarray(eye + distance * ray)
 
 
 def _march(part: object, eye: Array, ray: Array) -> float | None:

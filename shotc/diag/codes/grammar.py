@@ -51,8 +51,8 @@ shots:
 def _code(
     number: int, slug: str, summary: str, explanation: str, passing: str, *changes: tuple[str, str]
 ) -> CodeInfo:
-    made = slip(f"F{number:03}", slug, summary, explanation, passing, *changes)
-    return made._replace(severity=Severity.WARNING)
+    info = slip(f"F{number:03}", slug, summary, explanation, passing, *changes)
+    return info._replace(severity=Severity.WARNING)
 
 
 _ALLOW = " If it is intended, write `allow: [{}]` in the shot, or under `rules` for the whole mission."

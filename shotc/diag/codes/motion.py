@@ -26,9 +26,9 @@ _PLANNED = (8, 9, 11, 13)
 
 
 def _code(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
-    made = slip(f"M{number:03}", slug, summary, explanation, _PASSING, *changes)
+    info = slip(f"M{number:03}", slug, summary, explanation, _PASSING, *changes)
     severity = Severity.WARNING if number in _WARNINGS else Severity.ERROR
-    return made._replace(severity=severity, phase="plan" if number in _PLANNED else "check")
+    return info._replace(severity=severity, phase="plan" if number in _PLANNED else "check")
 
 
 def _needs_a_file(number: int, slug: str, summary: str, explanation: str) -> CodeInfo:
@@ -73,8 +73,8 @@ shots:
 
 
 def _framing(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
-    made = slip(f"M{number:03}", slug, summary, explanation, _PAIR, *changes)
-    return made._replace(severity=Severity.WARNING if number in _WARNINGS else Severity.ERROR)
+    info = slip(f"M{number:03}", slug, summary, explanation, _PAIR, *changes)
+    return info._replace(severity=Severity.WARNING if number in _WARNINGS else Severity.ERROR)
 
 
 _KEYED = """\
@@ -99,8 +99,8 @@ shots:
 
 def _keyed(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
     """Return the code of a fault in keyframes of a moving target that only planning finds."""
-    made = slip(f"M{number:03}", slug, summary, explanation, _KEYED, *changes)
-    return made._replace(phase="plan")
+    info = slip(f"M{number:03}", slug, summary, explanation, _KEYED, *changes)
+    return info._replace(phase="plan")
 
 
 CODES: tuple[CodeInfo, ...] = (

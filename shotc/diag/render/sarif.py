@@ -23,10 +23,10 @@ def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile])
 
     A diagnostic without a place becomes a notification of the run: GitHub refuses results without locations.
     """
-    kept = ordered(diagnostics)[:_MAX_RESULTS]
-    placed = [d for d in kept if d.labels]
-    unplaced = [d for d in kept if not d.labels]
-    rules = {d.code: info_of(d) for d in kept}
+    reported = ordered(diagnostics)[:_MAX_RESULTS]
+    placed = [d for d in reported if d.labels]
+    unplaced = [d for d in reported if not d.labels]
+    rules = {d.code: info_of(d) for d in reported}
     index = {code: number for number, code in enumerate(sorted(rules))}
     run = {
         "tool": {

@@ -65,10 +65,10 @@ def _marks(labels: Sequence[Label], file: SourceFile) -> Iterator[_Mark]:
 
 def _marked_line(content: str, marks: Sequence[_Mark], style: Style, gutter: int) -> Iterator[Line]:
     left, right = _window(content, marks[0])
-    shown = visible(content[left:right])
+    visible_part = visible(content[left:right])
     head = _CUT if left else ""
     tail = _CUT if right < len(content) else ""
-    source = f"{head}{shown}{tail}".rstrip()
+    source = f"{head}{visible_part}{tail}".rstrip()
     yield [(f"{marks[0].line:>{gutter}} |", "gutter"), (f" {source}" if source else "", "plain")]
     for mark in marks:
         if mark.end - 1 <= left or mark.start - 1 > right:  # outside the window; a mark may lie after the end

@@ -43,10 +43,10 @@ class DjiEmitter:
         """Return the missions, with notes on the error that the format adds and warnings about what it cannot
         carry.
         """
-        made = emit_files(plan, FORMAT)
+        emission = emit_files(plan, FORMAT)
         drones = plan.trajectory.keyframes.mission.drones
-        copied = made.artifacts and any(drone.autopilot == "dji-fly" for drone in drones)
-        return replace(made, notes=(*made.notes, COPIED)) if copied else made
+        copied = emission.artifacts and any(drone.autopilot == "dji-fly" for drone in drones)
+        return replace(emission, notes=(*emission.notes, COPIED)) if copied else emission
 
 
 EMITTER = DjiEmitter()

@@ -44,11 +44,13 @@ class LitchiEmitter:
         """Return the missions, with notes on the error that the format adds and warnings about what it cannot
         carry.
         """
-        made = emit_files(plan, FORMAT)
-        if not made.artifacts:
-            return made
+        emission = emit_files(plan, FORMAT)
+        if not emission.artifacts:
+            return emission
         lost = without_waypoints(plan.trajectory.keyframes.mission, plan.trajectory.drones)
-        return replace(made, diagnostics=(*made.diagnostics, *lost), notes=(*made.notes, SETTINGS))
+        return replace(
+            emission, diagnostics=(*emission.diagnostics, *lost), notes=(*emission.notes, SETTINGS)
+        )
 
 
 EMITTER = LitchiEmitter()

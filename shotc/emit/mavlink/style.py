@@ -156,8 +156,8 @@ def _meeting(poses: Poses, subject: Array) -> Vec3:
     """Return the point with the least squared distance to all camera axes, or a point straight ahead."""
     position, axis = poses.position, _axes(poses)
     middle = len(axis) // 2
-    away = min(float(np.linalg.norm(subject[middle] - position[middle])), FARTHEST_REGION_M)
-    ahead = position[middle] + away * axis[middle]
+    distance = min(float(np.linalg.norm(subject[middle] - position[middle])), FARTHEST_REGION_M)
+    ahead = position[middle] + distance * axis[middle]
     # A weak pull towards ``ahead`` keeps the system regular where the axes are parallel.
     across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
     pull = NEAR_PARALLEL_RAD2 * len(axis)

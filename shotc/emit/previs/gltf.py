@@ -186,10 +186,10 @@ def _primitives(file: _File, body: SceneBody) -> list[dict[str, Any]]:
             }
             for line in np.split(points, ends)
         ]
-    made: dict[str, Any] = {"attributes": {"POSITION": file.accessor(points, VERTICES, bounds=True)}}
+    primitive: dict[str, Any] = {"attributes": {"POSITION": file.accessor(points, VERTICES, bounds=True)}}
     if body.kind == "mesh":
-        made["indices"] = file.accessor(body.runs.ravel(), INDICES)
-    return [{**made, "mode": TRIANGLES if body.kind == "mesh" else POINTS, "material": material}]
+        primitive["indices"] = file.accessor(body.runs.ravel(), INDICES)
+    return [{**primitive, "mode": TRIANGLES if body.kind == "mesh" else POINTS, "material": material}]
 
 
 def _camera(file: _File, camera: CameraSamples) -> None:

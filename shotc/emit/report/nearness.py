@@ -60,5 +60,5 @@ def _least(points: Array, apart: Apart) -> float:
     if apart.shape == "ellipsoid":
         return float(tree.query(points, k=2)[0][:, 1].min())
     _, near = tree.query(points, k=min(NEIGHBOUR_COUNT, len(points)))
-    away = points[:, None] - points[near[:, 1:]]
-    return float(np.maximum(np.hypot(away[..., 0], away[..., 1]), np.abs(away[..., 2])).min())
+    offset = points[:, None] - points[near[:, 1:]]
+    return float(np.maximum(np.hypot(offset[..., 0], offset[..., 1]), np.abs(offset[..., 2])).min())

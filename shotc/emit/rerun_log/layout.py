@@ -136,12 +136,12 @@ def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any
     hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
     ground = "world/ground" if mission.terrain is None else TERRAIN
     standing = (STANDING,) if mission.meshes else ()
-    shown = (ground, *standing, "world/zones", "world/targets", f"{camera}/screen")
+    entities = (ground, *standing, "world/zones", "world/targets", f"{camera}/screen")
     width, height = frame_size(drone)
     return rrb.Spatial2DView(
         origin=f"{camera}/lens",
         name=name,
-        contents=[*(f"/{path}/**" for path in shown), *hidden],
+        contents=[*(f"/{path}/**" for path in entities), *hidden],
         background=SKY,
         visual_bounds=rrb.VisualBounds2D(x_range=[0, width], y_range=[0, height]),
     )

@@ -168,9 +168,9 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
     entity = f"{camera_entity(drone)}/screen/{span.target}"
     pose = flight.curve(ticks)
     cameras = Cameras(pose[:, :3], pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], drone.aspect)
-    away = np.array(target.centre) + moved(target, ticks) - cameras.position
+    offset = np.array(target.centre) + moved(target, ticks) - cameras.position
     parts = bodies_of(shapes(target, ticks))
-    contours = [shape_contour(away + np.array(part.offset), part.shape, count=25) for part in parts]
+    contours = [shape_contour(offset + np.array(part.offset), part.shape, count=25) for part in parts]
     polygons = list(zip(*(project_loops(cameras.view, contour) for contour in contours), strict=True))
     outlines = [
         np.clip(np.concatenate([loop, loop[:1]]), -9, 9) for loops in polygons for loop in loops if len(loop)

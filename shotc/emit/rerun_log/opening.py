@@ -64,8 +64,8 @@ def first_stand(plan: VerifiedIR) -> OpeningView | None:
     camera = _camera(flight, time, ahead=not subjects)
     points = np.concatenate([camera, *_bodies(mission, subjects, time)])
     low, high = points.min(axis=0), points.max(axis=0)
-    middle, away = (low + high) / 2, DISTANCE_RATIO * float(np.linalg.norm(high - low)) / 2 + NEAREST_M
-    eyes = [_over_ground(mission, middle + away * _toward(k)) for k in range(HEADING_COUNT)]
+    middle, distance = (low + high) / 2, DISTANCE_RATIO * float(np.linalg.norm(high - low)) / 2 + NEAREST_M
+    eyes = [_over_ground(mission, middle + distance * _toward(k)) for k in range(HEADING_COUNT)]
     covered = [_covered(mission, subjects, (eye, camera[0]), time) for eye in eyes]
     x, y, z = eyes[int(np.argmin(covered))].tolist()
     return OpeningView((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))

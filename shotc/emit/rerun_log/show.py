@@ -116,5 +116,5 @@ def nearest_pair(points: Array, apart: Apart) -> float:
     # The cylinder's measure is at least 1 / sqrt(2) of the Euclidean distance, so this radius contains its
     # nearest pair.
     pairs = tree.query_pairs(ball * np.sqrt(2.0) * (1.0 + 1e-9), output_type="ndarray")
-    away = np.abs(tall[pairs[:, 0]] - tall[pairs[:, 1]])
-    return float(np.maximum(np.hypot(away[:, 0], away[:, 1]), away[:, 2]).min())
+    offsets = np.abs(tall[pairs[:, 0]] - tall[pairs[:, 1]])
+    return float(np.maximum(np.hypot(offsets[:, 0], offsets[:, 1]), offsets[:, 2]).min())

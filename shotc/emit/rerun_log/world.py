@@ -124,7 +124,7 @@ def _targets(stream: Any, mission: MissionIR, last: float) -> None:
 
 def _motion(stream: Any, target: Target, last: float) -> None:
     times = np.linspace(0.0, last, int(np.clip(last * TRACK_RATE_HZ, 2, 6000)))
-    away, (translation, quaternion) = moved(target, times), carried(target, times)
+    displacement, (translation, quaternion) = moved(target, times), carried(target, times)
     columns = rr.Transform3D.columns(translation=translation)
     if quaternion is not None:
         columns = rr.Transform3D.columns(translation=translation, quaternion=quaternion)
@@ -134,7 +134,7 @@ def _motion(stream: Any, target: Target, last: float) -> None:
         columns=columns,
     )
     strips = rr.LineStrips3D(
-        [away + np.array(target.centre)],
+        [displacement + np.array(target.centre)],
         radii=rr.Radius.ui_points(0.8),
         colors=[rgba8(shade(SUBJECT, 1.2), 0.6)],
     )
@@ -156,15 +156,15 @@ class Carried(NamedTuple):
 
 def carried(target: Target, times: Array) -> Carried:
     """Return the transform of a target along its track at mission times (M,), seconds."""
-    away = moved(target, times)
+    displacement = moved(target, times)
     if target.track is None or not target.shape.turns:
-        return Carried(away, None)
+        return Carried(displacement, None)
     turn = headings(target.track, times) - target.track.heading(0.0)
     none, (x, y, z) = np.zeros(len(times)), target.centre
     # rerun rotates about W's origin, but a body turns about its centre.
     about = [x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), np.full(len(times), z)]
     quaternion = np.column_stack([none, none, np.sin(turn / 2), np.cos(turn / 2)])
-    return Carried(away + np.array(target.centre) - np.column_stack(about), quaternion)
+    return Carried(displacement + np.array(target.centre) - np.column_stack(about), quaternion)
 
 
 def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:

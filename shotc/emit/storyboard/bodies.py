@@ -33,30 +33,30 @@ class Sides(NamedTuple):
     top: Array
 
 
-def draw_body(canvas: Canvas, shown: PictureRectangle, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
+def draw_body(canvas: Canvas, view: PictureRectangle, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
     """Draw a body.
 
     offset : its centre minus the eye, W, metres
     """
-    outline = shape_outline(shown.camera, offset, shape)
+    outline = shape_outline(view.camera, offset, shape)
     if not len(outline):
         return
-    canvas.polygons([shown.place(outline)], color, clip=shown.box)
+    canvas.polygons([view.place(outline)], color, clip=view.box)
     sides = sides_seen(shape, offset)
     low, high = offset[2] - shape.height / 2, offset[2] + shape.height / 2
     strips, colors = [], []
     for (a, b), outward in zip(sides.edges, sides.outwards, strict=True):
-        polygon = project_loop(shown.camera, np.array([[*a, low], [*b, low], [*b, high], [*a, high]]))
+        polygon = project_loop(view.camera, np.array([[*a, low], [*b, low], [*b, high], [*a, high]]))
         if len(polygon):
-            strips.append(shown.place(polygon))
+            strips.append(view.place(polygon))
             colors.append(shade(color, 1.02 + 0.26 * float(np.cos(outward - LIGHT_RAD))))
     if strips:
-        canvas.polygons(strips, colors, colors, 0.4, shown.box)
+        canvas.polygons(strips, colors, colors, 0.4, view.box)
     if high < 0:
-        cap = project_loop(shown.camera, np.column_stack([sides.top, np.full(len(sides.top), high)]))
+        cap = project_loop(view.camera, np.column_stack([sides.top, np.full(len(sides.top), high)]))
         if len(cap):
-            canvas.polygons([shown.place(cap)], shade(color, 1.4), shade(color, 1.2), 0.5, shown.box)
-    canvas.polygons([shown.place(outline)], "none", shade(color, 0.55), 1.1, shown.box)
+            canvas.polygons([view.place(cap)], shade(color, 1.4), shade(color, 1.2), 0.5, view.box)
+    canvas.polygons([view.place(outline)], "none", shade(color, 0.55), 1.1, view.box)
 
 
 def sides_seen(shape: BodyShape, offset: Vec3) -> Sides:
@@ -69,15 +69,15 @@ def sides_seen(shape: BodyShape, offset: Vec3) -> Sides:
 
 def _round(shape: CylinderShape, offset: Vec3) -> Sides:
     x, y, _ = offset
-    away, radius = float(np.hypot(x, y)), shape.radius
+    distance, radius = float(np.hypot(x, y)), shape.radius
 
     def rim(turn: Array) -> Array:
         return np.stack([x + radius * np.cos(turn), y + radius * np.sin(turn)], axis=-1)
 
     top = rim(np.linspace(0, 2 * np.pi, RIM + 1)[:-1])
-    if away <= radius:
+    if distance <= radius:
         return Sides(np.empty((0, 2, 2)), np.empty(0), top)
-    half = np.arccos(radius / away)
+    half = np.arccos(radius / distance)
     turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, STRIPS + 1)
     seen = rim(turn)
     return Sides(np.stack([seen[:-1], seen[1:]], axis=1), (turn[:-1] + turn[1:]) / 2, top)

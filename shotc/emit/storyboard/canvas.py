@@ -258,8 +258,8 @@ class Canvas:
         style = replace(style, size=min(style.size, max(size, self.least_size)))
         shorter = text
         while (width := self.extent(shorter, style)[0]) > limit and len(shorter) > 1:
-            kept = min(len(shorter) - 2, int(len(shorter) * limit / width))
-            shorter = shorter[: max(kept, 0)].rstrip(" ,·") + ELLIPSIS
+            length = min(len(shorter) - 2, int(len(shorter) * limit / width))
+            shorter = shorter[: max(length, 0)].rstrip(" ,·") + ELLIPSIS
         return Fitted(shorter, style, width)
 
     def write(self, x: float, y: float, text: str, style: Type, width: float) -> float:

@@ -159,11 +159,11 @@ def _moments(
         return _with(plan, pair, [_keyframe(plan, pair, k) for k in _spread(times, MOST_PLACED)], worst)
 
     even = np.linspace(*interval, most_generated)
-    shown = [passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1)]
-    if worst is not None and not any(moment.is_at(worst.time) for moment in shown):
+    moments = [passing(plan, pair, float(t), n) for n, t in enumerate(even, start=1)]
+    if worst is not None and not any(moment.is_at(worst.time) for moment in moments):
         nearest = 1 + int(np.argmin(np.abs(even[1:-1] - worst.time)))
-        shown[nearest] = passing(plan, pair, worst.time, nearest + 1)
-    return _with(plan, pair, shown, worst)
+        moments[nearest] = passing(plan, pair, worst.time, nearest + 1)
+    return _with(plan, pair, moments, worst)
 
 
 def _with(

@@ -80,12 +80,12 @@ class Fan:
         return np.asarray(np.maximum.accumulate(np.where(np.isnan(slope), -np.inf, slope), axis=0))
 
 
-def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ()) -> Fan:
+def fan_of(view: PictureRectangle, ground: Ground, parts: Sequence[float] = ()) -> Fan:
     """Return the ground that a picture may show.
 
     parts : radii at which there must be a ring, metres
     """
-    eye = np.array(shown.eye)
+    eye = np.array(view.eye)
     low, high = (box.reshape(-1, 3) for box in (ground.surface.low[-1], ground.surface.high[-1]))
     low, high = low.min(axis=0), high.max(axis=0)
     gap = np.maximum(np.maximum(low - eye, eye - high), 0.0)[:2]
@@ -98,7 +98,7 @@ def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ())
         rings[0] = INNERMOST_RING_M  # no hole below the eye
     inner = [part for part in parts if rings[0] < part < reach]
     radius = np.unique(np.concatenate([rings, inner]))
-    angle = _directions(shown.camera)
+    angle = _directions(view.camera)
     fan = Fan(radius, angle, np.zeros((len(radius), len(angle))), over)
     xy = eye[:2] + fan.points[..., :2].reshape(-1, 2)
     return replace(fan, z=height_at(ground, xy).reshape(fan.z.shape) - eye[2])
@@ -124,12 +124,12 @@ class FanPainter:
     grid : width of a square, metres
     """
 
-    def __init__(self, canvas: Canvas, shown: PictureRectangle, fan: Fan, grid: float) -> None:
-        self._canvas, self._shown, self._fan, self._grid = canvas, shown, fan, grid
+    def __init__(self, canvas: Canvas, view: PictureRectangle, fan: Fan, grid: float) -> None:
+        self._canvas, self._shown, self._fan, self._grid = canvas, view, fan, grid
         self._top = len(fan.radius) - 1
-        self._corners = _on_page(shown, fan)
+        self._corners = _on_page(view, fan)
         self._faces = _faces(fan)
-        self._lines = draped(fan, squares(shown.eye, grid, LINE_PIECES))
+        self._lines = draped(fan, squares(view.eye, grid, LINE_PIECES))
         self._away = np.hypot(self._lines[..., 0], self._lines[..., 1])
 
     def draw_beyond(self, distance: float) -> None:
@@ -148,15 +148,15 @@ class FanPainter:
             draw_squares(self._canvas, self._shown, self._lines[now], self._grid)
 
 
-def _on_page(shown: PictureRectangle, fan: Fan) -> Array:
+def _on_page(view: PictureRectangle, fan: Fan) -> Array:
     """Return the page positions of rings and columns, (R, C, 2); NaN behind the camera."""
     points = fan.points
-    right, down, forward = shown.camera.to_camera((points[..., 0], points[..., 1], points[..., 2]))
+    right, down, forward = view.camera.to_camera((points[..., 0], points[..., 1], points[..., 2]))
     depth = np.where(forward > NEAR_M, forward, np.nan)
     uv = np.stack(
-        [right / (depth * shown.camera.half_width), -down / (depth * shown.camera.half_height)], axis=-1
+        [right / (depth * view.camera.half_width), -down / (depth * view.camera.half_height)], axis=-1
     )
-    return shown.place(np.clip(uv, -FARTHEST_SCREEN, FARTHEST_SCREEN))
+    return view.place(np.clip(uv, -FARTHEST_SCREEN, FARTHEST_SCREEN))
 
 
 def _faces(fan: Fan) -> Array:

@@ -19,40 +19,40 @@ NEAR_M = 0.05
 """Least depth at which the grid is drawn, metres."""
 
 
-def draw_flat(canvas: Canvas, shown: PictureRectangle, grid: float) -> None:
+def draw_flat(canvas: Canvas, view: PictureRectangle, grid: float) -> None:
     """Draw the sky, and the plane z = 0 with its grid.
 
     grid : width of a square, metres
     """
-    draw_sky(canvas, shown)
-    horizon = shown.horizon
+    draw_sky(canvas, view)
+    horizon = view.horizon
     if horizon > -1:
-        _bands(canvas, shown, (horizon, -1.0), GROUND_FAR, GROUND)
+        _bands(canvas, view, (horizon, -1.0), GROUND_FAR, GROUND)
         level = np.array([[-1.0, min(horizon, 1.0)], [1.0, min(horizon, 1.0)]])
-        canvas.lines([shown.place(level)], shade(GROUND, 0.72), 0.9, shown.box)
-    draw_squares(canvas, shown, squares(shown.eye, grid), grid)
+        canvas.lines([view.place(level)], shade(GROUND, 0.72), 0.9, view.box)
+    draw_squares(canvas, view, squares(view.eye, grid), grid)
 
 
-def draw_sky(canvas: Canvas, shown: PictureRectangle, below: Rgb = SKY) -> None:
+def draw_sky(canvas: Canvas, view: PictureRectangle, below: Rgb = SKY) -> None:
     """Draw the sky above the horizon.
 
     below : colour of what is below the horizon
     """
-    canvas.polygons([shown.box.outline()], below)
-    if shown.horizon < 1:
-        _bands(canvas, shown, (shown.horizon, 1.0), SKY_LOW, SKY)
+    canvas.polygons([view.box.outline()], below)
+    if view.horizon < 1:
+        _bands(canvas, view, (view.horizon, 1.0), SKY_LOW, SKY)
 
 
-def _bands(canvas: Canvas, shown: PictureRectangle, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
+def _bands(canvas: Canvas, view: PictureRectangle, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
     # A gradient away from the horizon, over one screen height, in thin bands.
     edges = span[0] + np.linspace(0.0, 1.0, 13) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
     edges[-1] = span[1] * 40.0
     strips, colors = [], []
     for i, (a, b) in enumerate(pairwise(edges)):
-        strips.append(shown.place(np.array([[-1.0, a], [1.0, a], [1.0, b], [-1.0, b]])))
+        strips.append(view.place(np.array([[-1.0, a], [1.0, a], [1.0, b], [-1.0, b]])))
         share = i / 11
         colors.append(tuple(p + (q - p) * share for p, q in zip(first, last, strict=True)))
-    canvas.polygons(strips, colors, colors, 0.3, shown.box)
+    canvas.polygons(strips, colors, colors, 0.3, view.box)
 
 
 def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
@@ -76,15 +76,15 @@ def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
     return np.stack([ground[:, :-1], ground[:, 1:]], axis=2).reshape(-1, 2, 3)
 
 
-def draw_squares(canvas: Canvas, shown: PictureRectangle, pieces: Array, grid: float) -> None:
+def draw_squares(canvas: Canvas, view: PictureRectangle, pieces: Array, grid: float) -> None:
     """Draw pieces of the grid lines, relative to the eye, metres, (n, 2, 3); distant ones are fainter."""
     reach = REACH * grid
-    right, down, forward = shown.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))
+    right, down, forward = view.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))
     seen = (forward > NEAR_M).all(axis=1)
     uv = np.stack(
         [
-            right[seen] / (forward[seen] * shown.camera.half_width),
-            -down[seen] / (forward[seen] * shown.camera.half_height),
+            right[seen] / (forward[seen] * view.camera.half_width),
+            -down[seen] / (forward[seen] * view.camera.half_height),
         ],
         axis=-1,
     )
@@ -92,8 +92,8 @@ def draw_squares(canvas: Canvas, shown: PictureRectangle, pieces: Array, grid: f
     inside = (uv.min(axis=1) < 1).all(axis=1) & (uv.max(axis=1) > -1).all(axis=1) & (far < 1)
     if not inside.any():
         return
-    ends = shown.place(uv[inside])
+    ends = view.place(uv[inside])
     strength = np.ceil(FADES * (1 - far[inside]) ** 2)
     for level in np.unique(strength):
         color = (*shade(GROUND, 0.66), 0.5 * float(level) / FADES)
-        canvas.pieces(ends[strength == level], color, 0.6, shown.box)
+        canvas.pieces(ends[strength == level], color, 0.6, view.box)

@@ -40,17 +40,17 @@ def lights_at(plan: VerifiedIR, time: float) -> FleetLights | None:
     return FleetLights(np.concatenate(where), np.concatenate(shine))
 
 
-def draw_lights(canvas: Canvas, shown: PictureRectangle, lights: FleetLights) -> None:
+def draw_lights(canvas: Canvas, view: PictureRectangle, lights: FleetLights) -> None:
     """Draw the lights in a picture, near ones last; a dark drone is a ring."""
-    away = lights.places - np.array(shown.eye)
-    u, v, depth = shown.camera.project((away[:, 0], away[:, 1], away[:, 2]))
+    offset = lights.places - np.array(view.eye)
+    u, v, depth = view.camera.project((offset[:, 0], offset[:, 1], offset[:, 2]))
     seen = np.flatnonzero((depth > 0) & (np.abs(u) <= 1.0) & (np.abs(v) <= 1.0))
     seen = seen[np.argsort(-depth[seen], kind="stable")]
     turn = np.linspace(0.0, 2.0 * np.pi, POLYGON_CORNERS + 1)[:-1]
     ring = RADIUS_IN * np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    rings = [shown.place(np.array([u[k], v[k]])) + ring for k in seen]
+    rings = [view.place(np.array([u[k], v[k]])) + ring for k in seen]
     faces: list[Color] = [
         (*lights.colors[k].tolist(), 1.0 if lights.colors[k].any() else 0.0) for k in seen.tolist()
     ]
     if rings:
-        canvas.polygons(rings, faces, (*INK, 0.8), 0.5, shown.box)
+        canvas.polygons(rings, faces, (*INK, 0.8), 0.5, view.box)

@@ -53,20 +53,20 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: Mis
     grid : width of a ground square, metres
     """
     box, mission = cell.picture, frozen(mission, moment.time)
-    shown = picture(moment.pose, box.width / box.height, box)
-    draw_scene(canvas, shown, mission, moment.targets, grid)
+    view = picture(moment.pose, box.width / box.height, box)
+    draw_scene(canvas, view, mission, moment.targets, grid)
     if moment.lights is not None:
-        draw_lights(canvas, shown, moment.lights)
+        draw_lights(canvas, view, moment.lights)
     for composition in dict.fromkeys(subject.composition for subject in moment.framed):
-        _composition(canvas, shown, composition)
+        _composition(canvas, view, composition)
     taken: list[PageRectangle] = []
-    seen = {thing.name: thing.place for thing in name_places(shown, mission)}
+    seen = {thing.name: thing.place for thing in name_places(view, mission)}
     for subject in moment.framed:
-        offset = shown.offset(mission.target(subject.target))
-        taken += _marks(canvas, shown, subject, offset, seen.get(subject.target))
+        offset = view.offset(mission.target(subject.target))
+        taken += _marks(canvas, view, subject, offset, seen.get(subject.target))
     taken += _faults(canvas, box, moment.framed)
     subjects = [part for name in moment.targets for part in mission.parts_of(name)]
-    lost = _names(canvas, shown, mission, subjects, taken)
+    lost = _names(canvas, view, mission, subjects, taken)
     canvas.polygons([box.outline()], "none", INK, 0.8)
     _caption(canvas, cell, moment, mission, lost)
 
@@ -82,20 +82,20 @@ def compass(yaw: float) -> str:
     return f"{heading:03d}° {POINTS_OF_THE_COMPASS[round(heading / 45) % 8]}"
 
 
-def _composition(canvas: Canvas, shown: PictureRectangle, composition: Composition) -> None:
+def _composition(canvas: Canvas, view: PictureRectangle, composition: Composition) -> None:
     us, vs = guide_lines(composition)
     strips = [np.array([[u, -1.0], [u, 1.0]]) for u in us] + [np.array([[-1.0, v], [1.0, v]]) for v in vs]
-    placed = [shown.place(strip) for strip in strips]
+    placed = [view.place(strip) for strip in strips]
     if placed:
-        canvas.lines(placed, (*INK, 0.30), 1.7, shown.box)
-        canvas.lines(placed, (*WHITE, 0.95), 0.8, shown.box)
+        canvas.lines(placed, (*INK, 0.30), 1.7, view.box)
+        canvas.lines(placed, (*WHITE, 0.95), 0.8, view.box)
     for point in composition.points if len(composition.points) > 1 else ():
-        x, y = shown.place(np.array(point))
+        x, y = view.place(np.array(point))
         canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
 
 
 def _marks(
-    canvas: Canvas, shown: PictureRectangle, subject: FramedSubject, offset: Vec3, body: PageRectangle | None
+    canvas: Canvas, view: PictureRectangle, subject: FramedSubject, offset: Vec3, body: PageRectangle | None
 ) -> list[PageRectangle]:
     """Draw the reference and the actual position of a subject; return the occupied rectangles.
 
@@ -104,14 +104,14 @@ def _marks(
     taken: list[PageRectangle] = []
     if subject.reference is not None:
         if subject.requested is not None and subject.is_moved:
-            _requested(canvas, shown, subject.requested, subject.reference)
-            x, y = (float(c) for c in shown.place(np.array(subject.requested)))
+            _requested(canvas, view, subject.requested, subject.reference)
+            x, y = (float(c) for c in view.place(np.array(subject.requested)))
             taken.append(PageRectangle(x - 0.07, y - 0.07, 0.14, 0.14))
-        x, y = _cross(canvas, shown, subject.reference)
+        x, y = _cross(canvas, view, subject.reference)
         taken.append(PageRectangle(x - 0.13, y - 0.13, 0.26, 0.26))
-    u, v, depth = shown.camera.project(offset)
+    u, v, depth = view.camera.project(offset)
     if depth > 0 and max(abs(u), abs(v)) <= 1:
-        x, y = (float(c) for c in shown.place(np.array([u, v])))
+        x, y = (float(c) for c in view.place(np.array([u, v])))
         taken.append(_actual(canvas, (x, y), body))
     return taken
 
@@ -129,25 +129,25 @@ def _actual(canvas: Canvas, at: Vec2, body: PageRectangle | None) -> PageRectang
     return PageRectangle(at[0] - reach, at[1] - reach, 2 * reach, 2 * reach)
 
 
-def _cross(canvas: Canvas, shown: PictureRectangle, at: Vec2) -> Vec2:
-    x, y = (float(c) for c in shown.place(np.array(at)))
+def _cross(canvas: Canvas, view: PictureRectangle, at: Vec2) -> Vec2:
+    x, y = (float(c) for c in view.place(np.array(at)))
     arms = [
         np.array([[x + sx * r, y + sy * r] for r in (0.065, 0.2)])
         for sx, sy in ((1, 0), (-1, 0), (0, 1), (0, -1))
     ]
     turn = np.linspace(0, 2 * np.pi, 41)
     ring = np.stack([x + 0.115 * np.cos(turn), y + 0.115 * np.sin(turn)], axis=-1)
-    canvas.lines([*arms, ring], (*INK, 0.65), 2.8, shown.box)
-    canvas.lines([*arms, ring], CAMERA, 1.5, shown.box)
+    canvas.lines([*arms, ring], (*INK, 0.65), 2.8, view.box)
+    canvas.lines([*arms, ring], CAMERA, 1.5, view.box)
     return x, y
 
 
-def _requested(canvas: Canvas, shown: PictureRectangle, requested: Vec2, reference: Vec2) -> None:
-    ends = shown.place(np.array([requested, reference]))
-    canvas.lines([ends], (*WHITE, 0.9), 1.0, shown.box, dash=(2.0, 2.0))
+def _requested(canvas: Canvas, view: PictureRectangle, requested: Vec2, reference: Vec2) -> None:
+    ends = view.place(np.array([requested, reference]))
+    canvas.lines([ends], (*WHITE, 0.9), 1.0, view.box, dash=(2.0, 2.0))
     x, y = ends[0]
     diamond = np.array([[x - 0.06, y], [x, y - 0.06], [x + 0.06, y], [x, y + 0.06]])
-    canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
+    canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, view.box)
 
 
 def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[FramedSubject]) -> list[PageRectangle]:
@@ -164,15 +164,15 @@ def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[FramedSubject])
 
 def _names(
     canvas: Canvas,
-    shown: PictureRectangle,
+    view: PictureRectangle,
     mission: MissionIR,
     subjects: Sequence[str],
     taken: list[PageRectangle],
 ) -> list[str]:
     """Write the names of visible objects, subjects first and none on a target; return those without room."""
-    box = shown.box
+    box = view.box
     inner = PageRectangle(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
-    things = sorted(name_places(shown, mission), key=lambda thing: thing.name not in subjects)
+    things = sorted(name_places(view, mission), key=lambda thing: thing.name not in subjects)
     targets = {target.name for target in mission.targets}
     labels, bodies = [], []
     for name, color, seen in things:
@@ -202,9 +202,11 @@ def _caption(
     canvas.text(box.x + 0.26, base, as_minutes(moment.time), Type(9.5, INK, bold=True))
     canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
     facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
-    away = [float(np.linalg.norm(np.subtract(mission.target(t).centre, pose[:3]))) for t in moment.targets]
-    if away:
-        facts.append(f"{' to '.join(dict.fromkeys(map(metres, (min(away), max(away)))))} away")
+    distances = [
+        float(np.linalg.norm(np.subtract(mission.target(t).centre, pose[:3]))) for t in moment.targets
+    ]
+    if distances:
+        facts.append(f"{' to '.join(dict.fromkeys(map(metres, (min(distances), max(distances)))))} away")
     facts.append(_height(pose, mission))
     if moment.hold > 0:
         facts.append(f"hold {moment.hold:g} s")

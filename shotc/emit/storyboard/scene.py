@@ -32,7 +32,7 @@ stands on, and is painted before it.
 
 
 def draw_scene(
-    canvas: Canvas, shown: PictureRectangle, mission: MissionIR, subjects: Collection[str], grid: float
+    canvas: Canvas, view: PictureRectangle, mission: MissionIR, subjects: Collection[str], grid: float
 ) -> None:
     """Draw the whole world, far objects first.
 
@@ -40,22 +40,22 @@ def draw_scene(
     grid : width of a ground square, metres
     """
     subjects = {part for name in subjects for part in mission.parts_of(name)}
-    things = painting_order(shown.eye, _things(mission))
+    things = painting_order(view.eye, _things(mission))
     layers: list[FanPainter | MeshPainter] = []
-    away = [AT_FOOT_SHARE * _distance(shown.eye, thing) for thing in things]
-    meshes = MeshPainter(canvas, shown, mission) if mission.meshes else None
+    away = [AT_FOOT_SHARE * _distance(view.eye, thing) for thing in things]
+    meshes = MeshPainter(canvas, view, mission) if mission.meshes else None
     bands: list[float] = []
     if mission.terrain is None:
-        draw_flat(canvas, shown, grid)
+        draw_flat(canvas, view, grid)
     else:
-        draw_sky(canvas, shown, SKY_LOW)
+        draw_sky(canvas, view, SKY_LOW)
         bands = [] if meshes is None else meshes.bands
-        layers.append(FanPainter(canvas, shown, fan_of(shown, mission.terrain.ground, [*away, *bands]), grid))
+        layers.append(FanPainter(canvas, view, fan_of(view, mission.terrain.ground, [*away, *bands]), grid))
     layers += [] if meshes is None else [meshes]
     for thing, distance in zip(things, away, strict=True):
         # What is nearer than an object is painted after it, and so covers it.
         _draw_beyond(layers, distance, bands)
-        _thing(canvas, shown, thing, subjects)
+        _thing(canvas, view, thing, subjects)
     _draw_beyond(layers, 0.0, bands)
 
 
@@ -69,11 +69,11 @@ def _draw_beyond(layers: Sequence[FanPainter | MeshPainter], distance: float, ba
             layer.draw_beyond(band)
 
 
-def _thing(canvas: Canvas, shown: PictureRectangle, thing: Target | Zone, subjects: Collection[str]) -> None:
+def _thing(canvas: Canvas, view: PictureRectangle, thing: Target | Zone, subjects: Collection[str]) -> None:
     if isinstance(thing, Target):
-        _target(canvas, shown, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
+        _target(canvas, view, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
     else:
-        _zone(canvas, shown, thing)
+        _zone(canvas, view, thing)
 
 
 def _things(mission: MissionIR) -> list[Target | Zone]:
@@ -139,26 +139,26 @@ def _distance(eye: Vec3, thing: Target | Zone) -> float:
     )
 
 
-def _target(canvas: Canvas, shown: PictureRectangle, target: Target, color: Rgb) -> None:
+def _target(canvas: Canvas, view: PictureRectangle, target: Target, color: Rgb) -> None:
     for part in bodies_of(target.shape):
-        draw_body(canvas, shown, part.shape, plus(shown.offset(target), part.offset), color)
+        draw_body(canvas, view, part.shape, plus(view.offset(target), part.offset), color)
 
 
-def _zone(canvas: Canvas, shown: PictureRectangle, zone: Zone) -> None:
-    outlines = [shown.place(o) for o in solid_outlines(shown.camera, shown.eye, zone.solid)]
+def _zone(canvas: Canvas, view: PictureRectangle, zone: Zone) -> None:
+    outlines = [view.place(o) for o in solid_outlines(view.camera, view.eye, zone.solid)]
     if not outlines:
         return
-    canvas.union(outlines, (*KEEP_OUT, 0.20), shown.box)
-    edges = [shown.place(e) for e in solid_edges(shown.camera, shown.eye, zone.solid)]
-    canvas.lines(edges, (*KEEP_OUT, 0.75), 0.8, shown.box)
+    canvas.union(outlines, (*KEEP_OUT, 0.20), view.box)
+    edges = [view.place(e) for e in solid_edges(view.camera, view.eye, zone.solid)]
+    canvas.lines(edges, (*KEEP_OUT, 0.75), 0.8, view.box)
     if len(outlines) == 1:
-        canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, shown.box)
+        canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, view.box)
 
 
-def _outlines(shown: PictureRectangle, target: Target) -> list[Array]:
-    offset = shown.offset(target)
+def _outlines(view: PictureRectangle, target: Target) -> list[Array]:
+    offset = view.offset(target)
     parts = bodies_of(target.shape)
-    return [shape_outline(shown.camera, plus(offset, part.offset), part.shape) for part in parts]
+    return [shape_outline(view.camera, plus(offset, part.offset), part.shape) for part in parts]
 
 
 def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
@@ -178,28 +178,28 @@ class NamedPlace(NamedTuple):
     place: PageRectangle
 
 
-def name_places(shown: PictureRectangle, mission: MissionIR) -> list[NamedPlace]:
+def name_places(view: PictureRectangle, mission: MissionIR) -> list[NamedPlace]:
     """Return the objects in the picture, near ones first.
 
     A target whose axis is behind the ground is left out.
     """
     names = []
-    for thing in reversed(painting_order(shown.eye, _things(mission))):
-        if isinstance(thing, Target) and _is_behind_ground(shown.eye, mission, thing):
+    for thing in reversed(painting_order(view.eye, _things(mission))):
+        if isinstance(thing, Target) and _is_behind_ground(view.eye, mission, thing):
             continue
         if isinstance(thing, Target):
-            shapes = _outlines(shown, thing)
+            shapes = _outlines(view, thing)
             color = shade(SUBJECT, 0.7)
         else:
-            shapes = solid_outlines(shown.camera, shown.eye, thing.solid)
+            shapes = solid_outlines(view.camera, view.eye, thing.solid)
             color = shade(KEEP_OUT, 0.8)
         points = np.concatenate([np.empty((0, 2)), *shapes])
         if not len(points):
             continue
         low, high = points.min(axis=0), points.max(axis=0)
         if (low < 1).all() and (high > -1).all():
-            left, bottom = (float(c) for c in shown.place(np.maximum(low, -1.0)))
-            right, top = (float(c) for c in shown.place(np.minimum(high, 1.0)))
+            left, bottom = (float(c) for c in view.place(np.maximum(low, -1.0)))
+            right, top = (float(c) for c in view.place(np.minimum(high, 1.0)))
             place = PageRectangle(left, bottom, right - left, top - bottom)
             names.append(NamedPlace(thing.name, color, place))
     return names

@@ -94,8 +94,8 @@ def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
     direction = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
     if first.targets:
         toward = np.subtract(mission.target(first.targets[0]).centre[:2], board.path[:, :2].mean(axis=0))
-        away = float(np.hypot(*toward))
-        direction = toward / away if away > 1.0 else direction
+        distance = float(np.hypot(*toward))
+        direction = toward / distance if distance > 1.0 else direction
     return np.array([[*direction, 0.0], [0.0, 0.0, 1.0]])
 
 

@@ -210,7 +210,7 @@ def _edges(depth: Array) -> Array:
     for axis in (0, 1):
         for step in (1, -1):
             beside = np.roll(depth, step, axis=axis)
-            shown = np.isfinite(depth)
-            near = np.where(shown, depth, 0.0) * (1.0 - NEARER_SHARE)
-            light[shown & ((beside < near) | np.isinf(beside))] = EDGE_BRIGHTNESS_RATIO
+            finite = np.isfinite(depth)
+            near = np.where(finite, depth, 0.0) * (1.0 - NEARER_SHARE)
+            light[finite & ((beside < near) | np.isinf(beside))] = EDGE_BRIGHTNESS_RATIO
     return light

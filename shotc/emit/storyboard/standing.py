@@ -27,11 +27,13 @@ DISTANCE_BANDS = 24
 class MeshPainter:
     """Draws the meshes of a mission into a picture step by step, from far to near."""
 
-    def __init__(self, canvas: Canvas, shown: PictureRectangle, mission: MissionIR) -> None:
-        self._canvas, self._shown = canvas, shown
-        eye = np.array(shown.eye)
-        size = (_size(shown.box.height), _size(shown.box.width))
-        self._raster = raster_of(faces_of(mission.meshes, eye), perspective(shown.camera, eye, size), size)
+    def __init__(self, canvas: Canvas, camera_view: PictureRectangle, mission: MissionIR) -> None:
+        self._canvas, self._shown = canvas, camera_view
+        eye = np.array(camera_view.eye)
+        size = (_size(camera_view.box.height), _size(camera_view.box.width))
+        self._raster = raster_of(
+            faces_of(mission.meshes, eye), perspective(camera_view.camera, eye, size), size
+        )
         apart = self._raster.points[..., :2] - eye[:2]
         self._away = np.nan_to_num(np.hypot(apart[..., 0], apart[..., 1]), nan=-1.0)
         self._drawn = np.inf

@@ -120,8 +120,8 @@ def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Po
     drift = 0.0
     for span in (s for s in flight.framing if s.shot == shot):
         filmed = mission.target(span.target)
-        away = moved(filmed, time + late) - moved(filmed, time)
-        drift = max(drift, float(np.linalg.norm(away, axis=1).max()))
+        displacement = moved(filmed, time + late) - moved(filmed, time)
+        drift = max(drift, float(np.linalg.norm(displacement, axis=1).max()))
     lag = float(np.abs(late).max())
     off = float(edge(plan.hfov, met.poses.hfov).max())
     return ShotError(shot, float(shift[index]), float(time[index]), float(shift.mean()), lag, drift, off)

@@ -94,16 +94,16 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
         return Emission((), (*diagnostics, report.no_origin(mission, form.emitter)))
     jobs = [_Job.of(mission, flight, form) for flight in flights]
     written = [job.written() for job in jobs]
-    ways = {f.drone: w.ways for f, w in zip(flights, written, strict=True)}
-    meeting = kept_apart_by_time(mission, ways, [f for f in ir.drones if f.drone not in ways])
-    diagnostics += [report.meets(mission, each, ways) for each in meeting]
+    courses = {f.drone: w.ways for f, w in zip(flights, written, strict=True)}
+    meeting = kept_apart_by_time(mission, courses, [f for f in ir.drones if f.drone not in courses])
+    diagnostics += [report.meets(mission, each, courses) for each in meeting]
     refused = {name for each in meeting for name in each.names}
     emissions = [job.emission(each) for job, each in zip(jobs, written, strict=True)]
-    kept = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]
+    accepted = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]
     return Emission(
-        tuple(a for e in kept for a in e.artifacts),
-        (*diagnostics, *(d for e in kept for d in e.diagnostics)),
-        (*notes, *(n for e in kept for n in e.notes)),
+        tuple(a for e in accepted for a in e.artifacts),
+        (*diagnostics, *(d for e in accepted for d in e.diagnostics)),
+        (*notes, *(n for e in accepted for n in e.notes)),
     )
 
 
@@ -243,8 +243,8 @@ class _Job:
                 if between is None:
                     continue
                 place, depth = between[0], between[1] - held
-            away = np.linalg.norm(self.track.poses.position - place, axis=1)
-            time = float(self.track.time[int(away.argmin())])
+            distances = np.linalg.norm(self.track.poses.position - place, axis=1)
+            time = float(self.track.time[int(distances.argmin())])
             owner = owner_of(obstacle, place)
             faults.append(report.broken(self.mission, self.drone, owner, depth, time))
         return faults

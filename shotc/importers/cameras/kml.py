@@ -142,8 +142,8 @@ def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
             time += seconds
         elif kind == "FlyTo":
             view = child(step, "Camera", "LookAt")
-            made = None if view is None else _view(view, notes)
-            if made is None:
+            camera = None if view is None else _view(view, notes)
+            if camera is None:
                 notes.assume(step, "a flight to no camera", "it is left out")
                 continue
             if last is not None:
@@ -151,7 +151,7 @@ def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
                 time += seconds
                 if (mode := child(step, "flyToMode")) is None or mode.text.strip() != "smooth":
                     notes.assume(step, "a flight that bounces", "the camera goes straight there")
-            last = made._replace(time=time)
+            last = camera._replace(time=time)
         elif kind in SILENT:
             notes.assume(step, f"{SILENT[kind]} in the tour", "it is left out")
     if last is not None:
@@ -210,8 +210,8 @@ def _number(node: Node, tag: str, otherwise: float | None, notes: Notes) -> floa
         return otherwise
     value = number(field.text.strip())
     if value is None:
-        shown = "left out" if otherwise is None else f"{otherwise:g}"
-        notes.assume(field, f"`{plain(field.text.strip(), 20)}` is no number", shown)
+        default = "left out" if otherwise is None else f"{otherwise:g}"
+        notes.assume(field, f"`{plain(field.text.strip(), 20)}` is no number", default)
         return otherwise
     return value
 

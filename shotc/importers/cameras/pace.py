@@ -50,8 +50,8 @@ def _stretches(cameras: Sequence[ImportedCamera], limits: Limits) -> Iterator[_P
         steps = [[q - p for p, q in zip(a.at, b.at, strict=True)] for a, b in pairwise(some)]
         across = sum(hypot(x, y) for x, y, _ in steps)
         up, down = sum(max(z, 0.0) for _, _, z in steps), sum(max(-z, 0.0) for _, _, z in steps)
-        ways = ((across, limits.speed), (up, limits.climb), (down, limits.descent))
-        least = max(_least(length, speed, limits.acceleration) for length, speed in ways)
+        parts = ((across, limits.speed), (up, limits.climb), (down, limits.descent))
+        least = max(_least(length, speed, limits.acceleration) for length, speed in parts)
         given = (some[-1].time or 0.0) - (some[0].time or 0.0) - some[0].hold
         yield _PartOfTake(some[0], given, least)
 

@@ -54,12 +54,14 @@ def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
     for take in takes:
         near = []
         for camera in take.cameras:
-            away = hypot(*(a - b for a, b in zip(camera.at, middle, strict=True)))
-            if away < FAR_M:
+            distance = hypot(*(a - b for a, b in zip(camera.at, middle, strict=True)))
+            if distance < FAR_M:
                 near.append(camera)
             else:
                 notes.assume(
-                    camera.node, f"a camera that is {away / 1000:.0f} km from most others", "it is left out"
+                    camera.node,
+                    f"a camera that is {distance / 1000:.0f} km from most others",
+                    "it is left out",
                 )
         kept.append(take._replace(cameras=tuple(near)))
     return tuple(kept)

@@ -114,16 +114,16 @@ def footage(data: bytes, name: str, options: ImportOptions, notes: Notes) -> Imp
         message = f"it has {len(listed)} items; at most {MOST_CAMERAS} are read"
         return Refused("I001", message, node_at(document, "mission", "items", MOST_CAMERAS))
     items = list(_items(document, listed, notes))
-    ways = [item for item in items if item.command in (WAYPOINT, SPLINE)]
-    if not ways:
+    waypoints = [item for item in items if item.command in (WAYPOINT, SPLINE)]
+    if not waypoints:
         return Refused("I003", "it holds no waypoint that says where it is", whole)
-    origin = _origin(document, mission, ways[0], options, notes)
-    absolute = [item for item in ways if item.frame in SEA_LEVEL]
+    origin = _origin(document, mission, waypoints[0], options, notes)
+    absolute = [item for item in waypoints if item.frame in SEA_LEVEL]
     if isinstance(origin, Refused):
         return origin
     if (
         absolute
-        and len(absolute) < len(ways)
+        and len(absolute) < len(waypoints)
         and "plannedHomePosition" not in mission
         and options.ground is None
     ):

@@ -50,15 +50,15 @@ def thinned(
     lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
     parameters = _parameters(lens, on_clock=on_clock)
     needed = (i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)
-    kept = {*range(0, len(lens), MOST_CAMERAS_APART), len(lens) - 1, *needed}
-    spans = list(pairwise(sorted(kept)))
+    chosen = {*range(0, len(lens), MOST_CAMERAS_APART), len(lens) - 1, *needed}
+    spans = list(pairwise(sorted(chosen)))
     while spans:
         first, last = spans.pop()
         worst, at = _worst(lens, parameters, first, last)
         if worst > PICTURE_ERROR_HALF_FRAMES:
-            kept.add(at)
+            chosen.add(at)
             spans += [(first, at), (at, last)]
-    return tuple(cameras[i] for i in sorted(kept))
+    return tuple(cameras[i] for i in sorted(chosen))
 
 
 def unwound(cameras: Sequence[ImportedCamera]) -> list[ImportedCamera]:

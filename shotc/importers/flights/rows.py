@@ -112,8 +112,8 @@ def rows(text: str) -> tuple[DroneRows, ...]:
         refuse(FOREIGN, f"it has no column {names} in its first line", start, help_)
     if len(lines) > MOST_ROWS:
         refuse(UNREADABLE, f"it has {len(lines) - 1} rows; at most {MOST_ROWS} are read", start)
-    kept = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
-    numbers, body = [i for i, _ in kept], [line for _, line in kept]
+    numbered = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
+    numbers, body = [i for i, _ in numbered], [line for _, line in numbered]
     moves = all(name in columns for name in VELOCITY)
     values = numbers_of(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
     drones = [_cell(line, columns[DRONE]) for line in body] if DRONE in columns else [""] * len(body)

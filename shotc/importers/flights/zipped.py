@@ -94,12 +94,12 @@ def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
     if not head and number(first) is None:
         wide = Node("", 1, 1, wide=len(lines[0]) or 1)
         refuse(FOREIGN, "its first line is no row, and names no columns", wide, f"begin with `{EXAMPLE}`")
-    kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and not (head and i == 1)]
-    if not kept:
+    numbered = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and not (head and i == 1)]
+    if not numbered:
         refuse(BROKEN, "it has no row", WHOLE)
-    if len(kept) > left:
+    if len(numbered) > left:
         refuse(UNREADABLE, f"the archive has more than {MOST_ROWS} rows, and no more are read", WHOLE)
-    return _numbered(drone, table.name, kept)
+    return _numbered(drone, table.name, numbered)
 
 
 def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> DroneRows:

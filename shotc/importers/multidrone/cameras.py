@@ -55,8 +55,8 @@ def fly_through(task: RoleTask) -> ImportedShot:
     if len(places) < 2 or hypot(places[-1][0] - places[0][0], places[-1][1] - places[0][1]) < 1.0:
         message = "a fly-through without a way"
         still = task.notes.assume(task.action.node, message, "a still camera at the origin of the formation")
-        made = static(task)
-        return made._replace(comments=(still, *made.comments))
+        shot = static(task)
+        return shot._replace(comments=(still, *shot.comments))
     path = ((*places[0], z), (*places[len(places) // 2], z), (*places[-1], z))
     if _turned(task.role):
         rows, said = _panned(task, [(frame.written(p, z), _course(places, i)) for i, p in enumerate(points)])
@@ -98,10 +98,10 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL_TILT_DEG))
         rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
     if not LOWEST_PITCH + LEVEL_TILT_DEG <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL_TILT_DEG:
-        shown = f"{min(tilts):g} to {max(tilts):g} deg"
+        span = f"{min(tilts):g} to {max(tilts):g} deg"
         said = (
             *said,
-            task.notes.assume(node, f"a tilt of {shown} is out of a gimbal's range", "its nearest end"),
+            task.notes.assume(node, f"a tilt of {span} is out of a gimbal's range", "its nearest end"),
         )
     return f"keyframes: [{', '.join(rows)}]", said
 

@@ -44,8 +44,8 @@ def size_of(role: Role, films: bool, fixed: bool, notes: Notes) -> tuple[str | N
         return None, [f"{plain(role.framing, 30)}: the camera watches no target, so there is no `size`"]
     if role.framing not in SIZES:
         node = role.node.first("framingTypeName") or role.node
-        shown = plain(role.framing, 30)
-        return None, [notes.assume(node, f"the framing `{shown}` is not known", "no `size` is asked for")]
+        text = plain(role.framing, 30)
+        return None, [notes.assume(node, f"the framing `{text}` is not known", "no `size` is asked for")]
     size = SIZES[role.framing]
     if size is None:
         return None, [f"{role.framing} says no size"]
@@ -65,8 +65,8 @@ def composition_of(
         return "center", []
     if role.composition != THIRDS:
         node = role.node.first("shootingTypeName") or role.node
-        shown = plain(role.composition, 30)
-        return "center", [notes.assume(node, f"the composition `{shown}` is not known", "center")]
+        text = plain(role.composition, 30)
+        return "center", [notes.assume(node, f"the composition `{text}` is not known", "center")]
     side, why = _third(course, camera, t)
     return side, [f"{THIRDS}: {side}, {why}"]
 

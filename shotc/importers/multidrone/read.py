@@ -83,9 +83,9 @@ def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
     sequences = []
     for node in below(root, "shootingActionSequence"):
         actions = [_action(child, notes) for child in below(node, "shootingAction")]
-        kept = tuple(action for action in actions if action is not None)
-        if kept:
-            sequences.append(Sequence(node, node.value("name"), node.value("role") != "secondary", kept))
+        known = tuple(action for action in actions if action is not None)
+        if known:
+            sequences.append(Sequence(node, node.value("name"), node.value("role") != "secondary", known))
         else:
             notes.assume(
                 node, "a sequence without a shooting action that can be read", "the sequence is left out"
@@ -110,14 +110,14 @@ def number(node: Node | None, notes: Notes) -> float | None:
 
 def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
     """Return the number in a text of an element, or None. ``name``: name of the parameter, or empty."""
-    shown = f"{name} = `{text[:30]}`" if name else f"`{text[:30]}`"
+    quoted = f"{name} = `{text[:30]}`" if name else f"`{text[:30]}`"
     if _COMMA.fullmatch(text):
         corrected = text.replace(",", ".")
-        notes.assume(node, f"{shown} has a decimal comma", corrected)
+        notes.assume(node, f"{quoted} has a decimal comma", corrected)
         text = corrected
     if _NUMBER.fullmatch(text) and abs(value := float(text)) <= LARGEST_VALUE:
         return value
-    notes.assume(node, f"{shown} is no number that can be meant", "it counts as missing")
+    notes.assume(node, f"{quoted} is no number that can be meant", "it counts as missing")
     return None
 
 
@@ -193,6 +193,6 @@ def _parameter(name: str, value: Any, node: Node, notes: Notes) -> float | None:
         return _number(value.strip(), name, node, notes)
     if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_VALUE:
         return float(value)
-    shown = plain(str(value), 30)
-    notes.assume(node, f"{name} = `{shown}` is no number that can be meant", "it counts as missing")
+    text = plain(str(value), 30)
+    notes.assume(node, f"{name} = `{text}` is no number that can be meant", "it counts as missing")
     return None

@@ -52,8 +52,8 @@ def targets(films: Rows[FilmedAction], root: Node, frame: CoordinateFrame, notes
     yield from (f"  # {comment}" for comment in ground)
     body = f"radius: {radius:g}, height: {height:g}}}"
     for target, course in courses.items():
-        ways = [f.action.node.first("RTTrajectory") for f in films if f.target == target]
-        more = [said for route in ways if route is not None for said in notes.below(route)]
+        trajectories = [f.action.node.first("RTTrajectory") for f in films if f.target == target]
+        more = [said for route in trajectories if route is not None for said in notes.below(route)]
         said = dict.fromkeys(comment for comment in (*course.comments, *more) if comment not in ground)
         yield from (f"  # {comment}" for comment in said)
         yield from _target(target, course, [frame.written(p, height / 2) for p in course.points], body)
@@ -75,9 +75,11 @@ def _ground(films: Rows[FilmedAction], notes: Notes) -> Iterator[str]:
     if not odd:
         return
     given = sorted({p.z for p in odd if p.z is not None})
-    shown = "none" if not given else f"{given[0]:g}" if len(given) == 1 else f"{given[0]:g} to {given[-1]:g}"
+    heights = (
+        "none" if not given else f"{given[0]:g}" if len(given) == 1 else f"{given[0]:g} to {given[-1]:g}"
+    )
     node = odd[0].node.first("altitude") or odd[0].node
-    message = f"the altitude of {len(odd)} of {len(points)} points is {shown}"
+    message = f"the altitude of {len(odd)} of {len(points)} points is {heights}"
     yield notes.assume(node, message, "targets go on the ground, z = 0, as in the project's own planner")
 
 

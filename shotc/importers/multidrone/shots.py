@@ -28,12 +28,12 @@ def shot_of(task: RoleTask) -> ImportedShot:
         node = task.role.node.first("name") or task.role.node
         message = f"the shot `{plain(task.role.kind, 30)}` is not known"
         said = task.notes.assume(node, message, "a still camera at the origin of the formation")
-        made = static(task)
-        return made._replace(comments=(said, *made.comments))
+        shot = static(task)
+        return shot._replace(comments=(said, *shot.comments))
     if kind in FOLLOWING and task.course.stands:
         said = task.notes.assume(task.role.node, f"{kind} of a target that stands", "a still camera")
-        made = static(task)
-        return made._replace(comments=(said, *made.comments))
+        shot = static(task)
+        return shot._replace(comments=(said, *shot.comments))
     return make(task)
 
 
@@ -42,22 +42,22 @@ def _chase(task: RoleTask) -> ImportedShot:
     start, said = task.param("x_s", usual)
     z, low = task.altitude()
     if task.role.params.get("x_e", start) != start:
-        made = _flyby(task, beside=0.0)
-        return made._replace(comments=("its distance changes, which is a flyby of ours", *made.comments))
+        shot = _flyby(task, beside=0.0)
+        return shot._replace(comments=("its distance changes, which is a flyby of ours", *shot.comments))
     kind = "chase" if start < 0 else "lead"
-    away, near = _apart(task, abs(start))
-    spot = (away if start >= 0 else -away, 0.0, z)
-    params = f"distance: {away:g}, altitude: {z:g}"
+    distance, near = _apart(task, abs(start))
+    spot = (distance if start >= 0 else -distance, 0.0, z)
+    params = f"distance: {distance:g}, altitude: {z:g}"
     return ImportedShot(kind, params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
 def _lateral(task: RoleTask) -> ImportedShot:
     y, said = task.param("y_0", 8.0)
     z, low = task.altitude()
-    away, near = _apart(task, abs(y))
+    distance, near = _apart(task, abs(y))
     side = "left" if y >= 0 else "right"
-    params = f"side: {side}, distance: {away:g}, altitude: {z:g}"
-    spot = (0.0, away if y >= 0 else -away, z)
+    params = f"side: {side}, distance: {distance:g}, altitude: {z:g}"
+    spot = (0.0, distance if y >= 0 else -distance, z)
     return ImportedShot("lateral", params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
@@ -76,7 +76,7 @@ def _orbit(task: RoleTask) -> ImportedShot:
     turn, two = task.param("azimuth_speed", 0.1)
     begin, three = task.param("azimuth_s", 0.0)
     z, low = task.altitude()
-    away, near = _apart(task, r)
+    distance, near = _apart(task, r)
     if abs(begin) > 2 * pi:
         more = task.assume(f"azimuth_s = {begin:g} is no angle in rad", "degrees")
         begin, three = radians(begin), (*three, more)
@@ -100,11 +100,12 @@ def _orbit(task: RoleTask) -> ImportedShot:
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
     first, halfway, ends = (
         task.beside(
-            (away * cos(begin + s * sweep), away * sin(begin + s * sweep), z), task.start + s * task.duration
+            (distance * cos(begin + s * sweep), distance * sin(begin + s * sweep), z),
+            task.start + s * task.duration,
         )
         for s in (0.0, 0.5, 1.0)
     )
-    params = f"radius: {away:g}, altitude: {z:g}, {turned}"
+    params = f"radius: {distance:g}, altitude: {z:g}, {turned}"
     said = "the side on which a target leaves room changes in an orbit: it is that of the middle of the shot"
     return ImportedShot(
         "orbit", params, (first, halfway, ends), (*one, *two, *three, *low, *near, said), not one

@@ -138,13 +138,13 @@ def _clock(
     notes: Notes,
 ) -> list[float]:
     """Return the mission time of each point: from the file if plausible, else from the speed."""
-    ways = [dist(p, q) for p, q in pairwise(places)]
-    if sum(ways) < SAME_POINT_M:
+    lengths = [dist(p, q) for p, q in pairwise(places)]
+    if sum(lengths) < SAME_POINT_M:
         return [start] * len(points)
     given = [p.time for p in points if p.time is not None]
-    wrong = _wrong(points, given, ways)
+    wrong = _wrong(points, given, lengths)
     if wrong is None:
-        _compare(action, sum(ways) / (given[-1] - given[0]), said, notes)
+        _compare(action, sum(lengths) / (given[-1] - given[0]), said, notes)
         return [start + t - given[0] for t in given]
     node, message = wrong
     if action.speed is not None and SLOWEST_M_S <= action.speed <= FASTEST_M_S:
@@ -156,7 +156,7 @@ def _clock(
         pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is of no use"
     said.append(notes.assume(node.node.first("time") or node.node, message, taken))
     clock = [start]
-    for length in ways:
+    for length in lengths:
         clock.append(clock[-1] + max(length / pace, 0.1))
     return clock
 

@@ -27,8 +27,8 @@ def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -
         unheard = Notes()
         uncut = _cut(film, 0.0, unheard)
         starts = [shot_of(task_of(uncut, role, frame, unheard)).path[0] for role in film.action.roles]
-        ways = [dist(ended[k], at) for k, at in enumerate(starts, film.first) if k in ended]
-        cut = _cut(film, round(SETTLE + max(ways) / PACE, 1) if ways else 0.0, notes)
+        lengths = [dist(ended[k], at) for k, at in enumerate(starts, film.first) if k in ended]
+        cut = _cut(film, round(SETTLE + max(lengths) / PACE, 1) if lengths else 0.0, notes)
         for k, role in enumerate(film.action.roles, film.first):
             ended[k] = shot_of(task_of(cut, role, frame, unheard)).path[2]
         yield cut

@@ -73,24 +73,24 @@ def _event(root: Node, notes: Notes) -> str:
 def _shot(film: FilmedAction, k: int, frame: CoordinateFrame, notes: Notes) -> list[str]:
     role = film.action.roles[k]
     task = task_of(film, role, frame, notes)
-    made = shot_of(task)
+    shot = shot_of(task)
     which = f"-{k + 1}" if len(film.action.roles) > 1 else ""
     fields = [
         f"id: {film.id}{which}-{safe(role.kind).lower()}",
-        f"kind: {made.kind}",
+        f"kind: {shot.kind}",
         f"drone: cam{film.first + k}",
     ]
-    size, said = size_of(role, made.watches, made.fixed, notes)
-    if made.watches:
-        composition, why = composition_of(role, film.course, made.path[1][:2], task.middle, notes)
+    size, said = size_of(role, shot.watches, shot.fixed, notes)
+    if shot.watches:
+        composition, why = composition_of(role, film.course, shot.path[1][:2], task.middle, notes)
         said += why
         fields += [f"target: {film.target}", f"composition: {composition}"]
     if size:
         fields.append(f"size: {size}")
-    comments = [*(film.comments if k == 0 else ()), *made.comments, *said]
+    comments = [*(film.comments if k == 0 else ()), *shot.comments, *said]
     return [
         *(f"  # {text}" for text in comments),
         f"  - {{{', '.join(fields)},",
-        f"     {made.params},",
+        f"     {shot.params},",
         f"     timing: {{start: {film.start:g}, duration: {film.duration:g}}}}}",
     ]

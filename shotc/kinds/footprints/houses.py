@@ -115,9 +115,9 @@ def houses_of(
         else:
             wrong.append(BuildingFault(footprint.name, footprint.number, shape))
     whole = _replaced(shapes)
-    made = _made(whole.left, height)
-    return made._replace(
-        wrong=(*wrong, *made.wrong),
+    house = _made(whole.left, height)
+    return house._replace(
+        wrong=(*wrong, *house.wrong),
         uncovered=tuple(whole.uncovered),
         passed=len(footprints) - len(built),
         far=tuple(far),

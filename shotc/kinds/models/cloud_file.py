@@ -122,8 +122,8 @@ def _points(data: bytes) -> list[NodePart] | ModelFault:
         if not reader.header.are_points_compressed and count * reader.header.point_format.size > len(data):
             return ModelFault(f"its header promises {count} points in {len(data)} bytes", "copy it anew")
         cloud: Any = reader.read()
-    kept = ~np.isin(np.asarray(cloud.classification), NOISE)
-    points = np.column_stack([np.asarray(axis)[kept] for axis in (cloud.x, cloud.y, cloud.z)])
+    valid = ~np.isin(np.asarray(cloud.classification), NOISE)
+    points = np.column_stack([np.asarray(axis)[valid] for axis in (cloud.x, cloud.y, cloud.z)])
     if not len(points) and count:
         return ModelFault(f"all of its {count} points are noise (classes 7 and 18)", "classify it anew")
     return [part("", points)]

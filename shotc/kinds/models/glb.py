@@ -59,13 +59,15 @@ def read_glb(data: bytes, most_corners: int) -> list[NodePart]:
     if needed:
         raise ValueError(f"its meshes are compressed ({', '.join(sorted(needed))}); export it without")
     parts: list[NodePart] = []
-    made: dict[int, list[NodePart]] = {}
+    parts_of_nodes: dict[int, list[NodePart]] = {}
     count = 0
     for placed in _placed(file):
-        if placed.mesh not in made:
+        if placed.mesh not in parts_of_nodes:
             mesh = file.item("meshes", placed.mesh)
-            made[placed.mesh] = [_primitive(file, primitive) for primitive in mesh.get("primitives", [])]
-        for own in made[placed.mesh]:
+            parts_of_nodes[placed.mesh] = [
+                _primitive(file, primitive) for primitive in mesh.get("primitives", [])
+            ]
+        for own in parts_of_nodes[placed.mesh]:
             count += len(own.corners)
             if count > most_corners:
                 raise ValueError(f"its scene has more than {most_corners} corners")

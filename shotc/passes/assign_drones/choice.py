@@ -51,10 +51,10 @@ def _can(task: ShotTask, drone: str) -> bool:
     """Return whether a drone can film a shot at all: by assignment, in time, and within its endurance."""
     if task.flown_by is not None:
         return task.flown_by == drone
-    away = task.travel_time(drone)
-    if task.start is not None and away > task.start + COST_SLACK:
+    travel = task.travel_time(drone)
+    if task.start is not None and travel > task.start + COST_SLACK:
         return False
-    return away + task.duration + task.back(drone) <= task.drones[drone].endurance
+    return travel + task.duration + task.back(drone) <= task.drones[drone].endurance
 
 
 def _work(

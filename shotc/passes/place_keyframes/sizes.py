@@ -67,8 +67,8 @@ def _framed(mission: MissionIR, placed: PlacedShot, required: float) -> str:
     names = {subject.target for subject in placed.subjects} | {k.target for k in placed.keyframes} - {None}
     if len(names) > 1 or shot.timing.duration is None:
         return ""
-    kept = ("id", "kind", "drone", "timing", "pace", "require", "refine", "allow")
-    own = [str(path[-1]) for path in written if path[:-1] == shot.path and path[-1] not in kept]
+    shared = ("id", "kind", "drone", "timing", "pace", "require", "refine", "allow")
+    own = [str(path[-1]) for path in written if path[:-1] == shot.path and path[-1] not in shared]
     subject = f"{{target: {names.pop()}, size: {required:.3g}}}"
     return f", or write `kind: framing, subjects: [{subject}]` in place of {each(own)}"
 
@@ -77,10 +77,12 @@ def _instead(mission: MissionIR, look: SizeCase, required: float) -> str:
     """Return the distance and the lens that would give a target its size."""
     target = mission.target(look.name)
     subject = RequiredView(target.centre, target.shape, look.uv)
-    away = hypot(*look.offset)
-    x, y, z = (c / away for c in look.offset)
+    distance = hypot(*look.offset)
+    x, y, z = (c / distance for c in look.offset)
     far = distance_for(subject, look.lens, (x, y, z), required)
-    said = f"its size is {look.size:.3g} from {away:.1f} m away; it would be {required:.3g} from {far:.1f} m"
+    said = (
+        f"its size is {look.size:.3g} from {distance:.1f} m away; it would be {required:.3g} from {far:.1f} m"
+    )
     if far < nearest(subject, (x, y, z), mission.rules.target_clearance):
         said += ", which is too near"
     hfov = lens_for(subject, look.lens, look.offset, required)

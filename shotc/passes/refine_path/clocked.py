@@ -125,9 +125,9 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
         yield f"its way into or out of the film takes {off:.3g} s more or less"
         return
     for name, k in (("begins", 0), ("ends", -1)):
-        away = float(np.abs(was.ctrl[k, k] - now.ctrl[k, k]).max())
-        if away > JOINT_TOLERANCE:
-            yield f"it {name} {away:.3g} from where the guide does (m or rad)"
+        distance = float(np.abs(was.ctrl[k, k] - now.ctrl[k, k]).max())
+        if distance > JOINT_TOLERANCE:
+            yield f"it {name} {distance:.3g} from where the guide does (m or rad)"
     ends = np.array([now.start, now.end])
     moving = max(float(np.abs(now.derivative(order)(ends)).max()) for order in (1, 2))
     if moving > AT_REST:

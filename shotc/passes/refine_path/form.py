@@ -97,11 +97,11 @@ def broken(note: str, shot: str | None = None) -> RefinerFinding:
 
 def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
     """Return what has to stay: on the clock every leg, else the filmed legs, take-off and landing."""
-    kept: list[tuple[str, list[tuple[str, str | None]]]] = [
+    shots: list[tuple[str, list[tuple[str, str | None]]]] = [
         (d.drone, [(leg.phase, leg.shot) for leg in d.legs if leg.phase not in UNFILMED]) for d in path.drones
     ]
-    kept += [(d.drone, [(_kind(leg), leg.shot) for leg in d.legs]) for d in path.timed]
-    return kept
+    shots += [(d.drone, [(_kind(leg), leg.shot) for leg in d.legs]) for d in path.timed]
+    return shots
 
 
 def _kind(leg: Leg) -> str:

@@ -153,12 +153,12 @@ def _keyframes(path: PathIR) -> Iterator[RefinerFinding]:
         for mark in leg.marks:
             keyframe = placed.keyframes[mark.index]
             at = np.array(leg.pose) if isinstance(leg, HoldLeg) else leg.curve(mark.s)
-            away = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
-            if keyframe.placed and away > ON_PLACE:
+            distance = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
+            if keyframe.placed and distance > ON_PLACE:
                 yield RefinerFinding(
                     "R007",
                     f"misses keyframe {mark.index + 1} of shot `{leg.shot}`",
-                    (f"passes {away:.3g} m away from where the mission places it, {place(leg, mark.s)}",),
+                    (f"passes {distance:.3g} m away from where the mission places it, {place(leg, mark.s)}",),
                     leg.shot,
                     (path.keyframes.mission.origins.key(keyframe.path, "this keyframe"),),
                 )

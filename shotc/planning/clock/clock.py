@@ -77,11 +77,11 @@ def _filmed(shot: Shot, start: float, step: float, lens: LensRange | None) -> Ar
     duration = shot.timing.duration or 0.0
     stops = [(t, t + k.hold) for t, k in zip(arrivals(shot), shot.keyframes, strict=True)]
     ends = sorted({0.0, duration, *(min(t, duration) for stop in stops for t in stop)})
-    kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING_S]
-    kept[-1] = duration
+    distinct = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING_S]
+    distinct[-1] = duration
     zooms = list(zip((leave for _, leave in stops), zoom_parts(shot, lens), strict=False))
     knots = []
-    for a, b in pairwise(kept):
+    for a, b in pairwise(distinct):
         parts = next((n or MOST_PARTS for leave, n in zooms if abs(leave - a) <= ROUNDING_S), 1)
         count = parts * ceil(max(PIECES_PER_KEYFRAME, ceil((b - a) / step)) / parts)
         knots.append(start + np.linspace(a, b, count, endpoint=False))

@@ -71,21 +71,21 @@ def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> Dron
 
     ends : mission times at which the shots of drones before it end, by id, seconds; its own are added
     """
-    drone, made = mission.drone(flown.drone), TrajectoryBuilder(flown.drone)
+    drone, builder = mission.drone(flown.drone), TrajectoryBuilder(flown.drone)
     after = {shot.id: shot.timing.after for shot in mission.shots}
     for leg in flown.legs:
         if isinstance(leg, ClockLeg):
-            if made.clock > leg.curve.start + LATE_S:
+            if builder.clock > leg.curve.start + LATE_S:
                 break
-            made.wait(float(leg.curve.start), leg.pose)
-            made.film(leg)
+            builder.wait(float(leg.curve.start), leg.pose)
+            builder.film(leg)
             ends[leg.shot] = leg.end
             continue
         motion = leg_motion(drone, leg)
         waited = ends.get(after.get(leg.shot or "") or "", 0.0)
-        made.wait(max(made.clock, leg.start or 0.0, waited), leg.pose)
+        builder.wait(max(builder.clock, leg.start or 0.0, waited), leg.pose)
         if motion is not None:
-            made.fly(leg, motion)
+            builder.fly(leg, motion)
         if leg.shot is not None:
-            ends[leg.shot] = made.clock
-    return made.trajectory()
+            ends[leg.shot] = builder.clock
+    return builder.trajectory()

@@ -180,9 +180,9 @@ class Itinerary:
         back = way_home(self.flight, pose)
         if not isinstance(back, list):
             return back
-        ways = ways_home(self.flight, pose, back, self._meanwhile(back, None))
+        transits = ways_home(self.flight, pose, back, self._meanwhile(back, None))
         stays = max(self.ends.values(), default=0.0)
-        transfer = choose(self.mission, self.drone, self.others, ways, When(self.clock, stays=stays))
+        transfer = choose(self.mission, self.drone, self.others, transits, When(self.clock, stays=stays))
         assert transfer is not None
         if transfer.met is not None:
             return Meets(transfer.met)
@@ -244,8 +244,8 @@ class Itinerary:
             return direct
 
         transit = Transit(self.mission, self.flight, pose, near, path)
-        ways = ways_to(transit, (lift, goal), direct, self._meanwhile([*lift, *direct], deadline))
-        transfer = choose(self.mission, self.drone, self.others, ways, When(self.clock, deadline), then)
+        transits = ways_to(transit, (lift, goal), direct, self._meanwhile([*lift, *direct], deadline))
+        transfer = choose(self.mission, self.drone, self.others, transits, When(self.clock, deadline), then)
         assert transfer is not None
         return transfer
 
@@ -362,14 +362,14 @@ class Itinerary:
     ) -> Reached | ClockFailure:
         """Plan a shot and the transfer to it, with given requirements on the shot's ends."""
         camera_task = CameraTask(self.mission, self.drone, placed.subjects)
-        made = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, requirements)
-        if isinstance(made, NoMotion):
-            return made
-        curve_start = float(made.leg.curve.start)
-        transfer = self._transfer(made.leg.pose, placed, curve_start)
+        shot = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, requirements)
+        if isinstance(shot, NoMotion):
+            return shot
+        curve_start = float(shot.leg.curve.start)
+        transfer = self._transfer(shot.leg.pose, placed, curve_start)
         if not isinstance(transfer, Transfer):
             return transfer
-        return Reached(made, transfer, transfer.end - curve_start, requirements[0].ends_aside)
+        return Reached(shot, transfer, transfer.end - curve_start, requirements[0].ends_aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""

@@ -106,26 +106,26 @@ def _apart(task: ClockTask, plain: PositionResult) -> tuple[ClockTask, PositionR
         if max(lack) <= 0.0 or best[1].curve is None:
             break
         wider = replace(task, apart=_apart_floors(task, best[1].curve))
-        made = _fly(wider, ())
-        if made.curve is None:
+        flown = _fly(wider, ())
+        if flown.curve is None:
             break
-        price = cost(task.camera_task, span, plain.curve, made.curve)
+        price = cost(task.camera_task, span, plain.curve, flown.curve)
         if lack.required <= 0.0 and (price.share > SAME_SHARE or price.crops):
             break
-        later = lacking(task.motions, made.curve, span)
+        later = lacking(task.motions, flown.curve, span)
         if later >= lack:
             break
-        best, lack = (wider, replace(made, rounds=best[1].rounds + made.rounds)), later
+        best, lack = (wider, replace(flown, rounds=best[1].rounds + flown.rounds)), later
     return best
 
 
 def _apart_floors(task: ClockTask, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
     """Return half-spaces for the clearances of the run-up and the run-out beside a course."""
     span, breaks, first = (task.clock.start, task.clock.end), task.clock.breaks, len(task.walls.owners)
-    ways = motion_rows(breaks, sides_apart(task.motions, course, span), first)
+    rows = motion_rows(breaks, sides_apart(task.motions, course, span), first)
     stands = zip(standing_apart(task.motions, course, span), (0, -1), strict=True)
     ends = [_standing(breaks, sides(at.motions, at.stands), first, row) for at, row in stands]
-    return tuple(half_spaces for half_spaces in (ways, *ends) if len(half_spaces.offset))
+    return tuple(half_spaces for half_spaces in (rows, *ends) if len(half_spaces.offset))
 
 
 def _kept(task: ClockTask, course: Piecewise) -> PictureHalfSpaces:

@@ -173,8 +173,8 @@ def _with_camera(task: ClockTask, position: Piecewise) -> Piecewise | Status:
     angles.
     """
     ideal = task.shot.ideal
-    kept = None if ideal is None else ideal.aim
-    turned = turn(AngleTask(task.camera_task, kept), task.clock, position)
+    aim = None if ideal is None else ideal.aim
+    turned = turn(AngleTask(task.camera_task, aim), task.clock, position)
     if turned.curve is None:
         return turned.status
     lens = _lens(task.camera_task, task.clock)
@@ -192,22 +192,22 @@ class _Motion(NamedTuple):
 def _seeing(best: _Motion) -> _Motion:
     """Return the motion with ways between keyframes led to where targets are visible, if that helps."""
     task = best.task
-    ways = ways_of(task)
-    if not ways:
+    spans = ways_of(task)
+    if not spans:
         return best
-    least = shown(task, ways, best.curve)
+    least = shown(task, spans, best.curve)
     for _ in range(SEEING_ROUNDS):
-        led = led_to_see(task, ways, best.curve)
+        led = led_to_see(task, spans, best.curve)
         if led is None:
             break
-        made = fly(led)
-        turned = made.status if made.curve is None else _with_camera(led, made.curve)
+        motion = fly(led)
+        turned = motion.status if motion.curve is None else _with_camera(led, motion.curve)
         if isinstance(turned, Status):
             break
-        improved = shown(led, ways, turned)
+        improved = shown(led, spans, turned)
         if not improved.better(least):
             break
-        best, least = _Motion(led, made, turned), improved
+        best, least = _Motion(led, motion, turned), improved
     return best
 
 
@@ -243,13 +243,15 @@ def _task(
     """Return the task of the position for given requirements of its ends."""
     spaces, others = around
     near = (*standing(spaces), *others.moving)
-    ways = run_up_and_out(camera_task, shot, start, required, (near, spaces.flight))
-    clock = clock_of(shot, start, ways, camera_task.drone.lens)
+    run_ups = run_up_and_out(camera_task, shot, start, required, (near, spaces.flight))
+    clock = clock_of(shot, start, run_ups, camera_task.drone.lens)
     motions = tuple(linearised(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, required.stand)
     bound = bounds_of(camera_task.mission, shot, start)
     return led(
-        ClockTask(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
+        ClockTask(
+            camera_task, shot, clock, run_ups, spaces.flight, motions, passing, others.visibility, bound
+        )
     )
 
 

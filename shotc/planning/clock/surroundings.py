@@ -112,9 +112,9 @@ class Surroundings:
             spans.append((n, np.full(len(hulls), wall.offset)))
         for disc in self.walls.discs:
             centre = np.array(disc.centre)
-            away = hulls[:, :, :2].mean(axis=1) - centre
-            away /= np.maximum(np.linalg.norm(away, axis=1), 1e-9)[:, None]
-            n = np.column_stack([-away, np.zeros(len(hulls))])
+            offset = hulls[:, :, :2].mean(axis=1) - centre
+            offset /= np.maximum(np.linalg.norm(offset, axis=1), 1e-9)[:, None]
+            n = np.column_stack([-offset, np.zeros(len(hulls))])
             spans.append((n, n[:, :2] @ centre - disc.radius))
         return spans
 

@@ -55,13 +55,13 @@ def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
     Raises NoTransit if the new leg takes longer at full limits.
     """
     duration = leg_time(drone, old)
-    made = replace(new, duration=duration if old.duration is None else old.duration)
-    if lateness(drone, made) > 0.0:
+    leg = replace(new, duration=duration if old.duration is None else old.duration)
+    if lateness(drone, leg) > 0.0:
         whose = "the way" if old.shot is None else "its convex path"
         least = leg_time(drone, replace(new, duration=None, pace=1.0))
         more = f", for it takes {least:.3f} s at full limits" if least > duration else ""
         raise NoTransit(f"the {duration:.3f} s of {whose}{more}", least if old.shot is not None else None)
-    return made
+    return leg
 
 
 def _led(mission: MissionIR, drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pose]) -> MovingLeg:

@@ -102,7 +102,7 @@ def shot_line(
     points = np.array([k.at for k in keyframes], dtype=np.float64)
     drawn = None if watched is None else _drawn(space, keyframes, points, watched)
     points = points if drawn is None else drawn
-    kept: list[int] = []
+    chosen: list[int] = []
     last = len(keyframes) - 1
     moved = [False, False]
     for i, keyframe in enumerate(keyframes):
@@ -116,12 +116,12 @@ def shot_line(
             points[i], moved[i == last] = free, True
             near = []
         if not near:
-            kept.append(i)
-    ways = _ways(space, points, kept)
-    if isinstance(ways, NoWay):
-        return ways
-    dropped = tuple(i for i in range(len(keyframes)) if i not in kept)
-    line = _joined(keyframes, points[kept[0]], kept, ways)
+            chosen.append(i)
+    polylines = _ways(space, points, chosen)
+    if isinstance(polylines, NoWay):
+        return polylines
+    dropped = tuple(i for i in range(len(keyframes)) if i not in chosen)
+    line = _joined(keyframes, points[chosen[0]], chosen, polylines)
     return replace(line, dropped=dropped, moved=(moved[0], moved[1]), drawn=drawn)
 
 
@@ -137,12 +137,12 @@ def line_beside(
     for k, between in enumerate(attractors):
         places += [between, points[k + 1 : k + 2]]
         of += [-1] * len(between) + [k + 1]
-    ways = _ways(space, np.concatenate(places), list(range(len(of))))
-    if isinstance(ways, NoWay):
-        return ways
-    ends = np.cumsum([len(leg) - 1 for leg in ways])
+    polylines = _ways(space, np.concatenate(places), list(range(len(of))))
+    if isinstance(polylines, NoWay):
+        return polylines
+    ends = np.cumsum([len(leg) - 1 for leg in polylines])
     drawing = tuple(int(end) for end, k in zip(ends, of[1:], strict=True) if k < 0)
-    return replace(_joined(keyframes, points[0], of, ways), attractors=drawing)
+    return replace(_joined(keyframes, points[0], of, polylines), attractors=drawing)
 
 
 def _drawn(
@@ -164,15 +164,15 @@ def _drawn(
 
 def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoWay:
     a, b = points[kept[:-1]], points[kept[1:]]
-    ways = []
+    polylines = []
     shut = blocked(space, a, b)
     for k in range(len(kept) - 1):
         straight = np.stack([a[k], b[k]])
         route = over_ground(space, find_route(space, a[k], b[k]) if shut[k].any() else straight)
         if route is None:
             return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
-        ways.append(route)
-    return ways
+        polylines.append(route)
+    return polylines
 
 
 def _joined(

@@ -311,8 +311,8 @@ def _keyed(placed: PlacedShot, line: Polyline, curve: Piecewise) -> KeyedPath:
 def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float) -> float:
     # Both ends are excluded, so that parameters increase.
     at = np.linspace(low, high, 66)[1:-1]
-    away = np.linalg.norm(curve(at) - np.array(keyframe.at), axis=1)
-    return float(at[int(away.argmin())])
+    distances = np.linalg.norm(curve(at) - np.array(keyframe.at), axis=1)
+    return float(at[int(distances.argmin())])
 
 
 def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Polyline) -> tuple[Stop, ...]:
@@ -352,9 +352,10 @@ def _deviations(
     otherwise : the cause where no obstacle is near the keyframe
     """
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
-    away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
+    distances = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
     deviations = [
-        _Away(float(away[i]), float(keyed.s[i]), points[i]) for i in worst_of_runs(away, LEFT_M, NOTICE_M)
+        _Away(float(distances[i]), float(keyed.s[i]), points[i])
+        for i in worst_of_runs(distances, LEFT_M, NOTICE_M)
     ]
     if not any(k.placed for k in placed.keyframes):
         between = [_bowed(keyed, points, k) for k in range(len(points) - 1)]

@@ -226,14 +226,14 @@ def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | Non
     places = (0.5 * (a + b) + reach[:, None] * directions(RAYS_PER_END, RISES_RAD)[:, None, :]).reshape(-1, 3)
     places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN_M)]
     order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
-    ways = (np.stack([a, place, b]) for place in places[order[:MOST_PLACES]])
-    return next((corners for corners in ways if _kept(wide, corners)), None)
+    polylines = (np.stack([a, place, b]) for place in places[order[:MOST_PLACES]])
+    return next((corners for corners in polylines if _kept(wide, corners)), None)
 
 
 def _shortest(a: Array, places: Array, b: Array) -> Array | None:
     """Return the place, of shape (N, 3), that gives the shortest path from a over it to b."""
-    ways = np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1)
-    return None if not len(places) else np.asarray(places[int(ways.argmin())])
+    lengths = np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1)
+    return None if not len(places) else np.asarray(places[int(lengths.argmin())])
 
 
 def _ends(line: Array) -> tuple[Vec3, Vec3]:

@@ -207,8 +207,8 @@ def _to_ends(nodes: Array, side: float) -> IntArray:
     """Return pairs of the two ends, nodes 0 and 1, and the nodes near them."""
     pairs = []
     for end in (0, 1):
-        away = np.linalg.norm(nodes[2:] - nodes[end], axis=1)
-        near = 2 + np.flatnonzero(away < 2.0 * side)
+        distances = np.linalg.norm(nodes[2:] - nodes[end], axis=1)
+        near = 2 + np.flatnonzero(distances < 2.0 * side)
         pairs.append(np.column_stack([np.full(len(near), end), near]))
     return np.concatenate(pairs).astype(np.intp)
 

@@ -51,17 +51,19 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | No
     lens = old.channels(HFOV)
     if camera.ctrl.shape[2] > LENS_COLUMN:
         lens, camera = camera.channels(LENS_COLUMN), camera.channels(*range(LENS_COLUMN))
-    kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
+    same_ends = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(
+        old.ctrl[-1, -1, :5], camera.ctrl[-1, -1]
+    )
     if ahead is not None and (turned := _facing(drone, leg, camera, ahead)) is not None:
         whole = stack(turned.position, turned.camera, turned.body, restrict(lens, turned.position.breaks))
         return replace(leg, curve=whole)
-    body = _body(drone, leg, camera, old) if kept else None
-    kept = body is not None
+    body = _body(drone, leg, camera, old) if same_ends else None
+    same_ends = body is not None
     body = body or _body(drone, leg, camera, None)
     if body is None:
         raise NoTransit("the gimbal's yaw range")
     curve = stack(camera, body, restrict(lens, camera.breaks))
-    if kept:
+    if same_ends:
         # Fits are accurate to 1e-9, but joints have to be equal.
         ctrl = curve.ctrl.copy()
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]

@@ -190,11 +190,11 @@ def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _Late:
     moves: list[TimedMove] = []
     for m, move in enumerate(timed.fast):
         own = [p for p in parts if p.move == m]
-        made = _made(timed, move, own)
-        if made is None:
+        slowed = _made(timed, move, own)
+        if slowed is None:
             known = [p for p in own if p.deadline < len(deadlines)]
             return _Late(min(known, key=lambda p: p.duration / p.least).deadline)
-        moves.append(made)
+        moves.append(slowed)
     return Timed(plan, tuple(moves))
 
 

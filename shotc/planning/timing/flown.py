@@ -82,12 +82,12 @@ def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceili
     inside = np.array([0.25, 0.5, 0.75])
     t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
     s = profile.curve()(t)[..., 0]
-    away = flown(t) - path(s)
-    strays = np.abs(away).max(axis=(1, 2)) > STRAY
+    offset = flown(t) - path(s)
+    strays = np.abs(offset).max(axis=(1, 2)) > STRAY
     gimbal_yaw = flown.ctrl[:, :, CAM_YAW] - flown.ctrl[:, :, BODY_YAW]
     for angle, error, (low, high) in (
-        (flown.ctrl[:, :, CAM_PITCH], away[:, :, CAM_PITCH], ceiling.pitch),
-        (gimbal_yaw, away[:, :, CAM_YAW] - away[:, :, BODY_YAW], ceiling.yaw),
+        (flown.ctrl[:, :, CAM_PITCH], offset[:, :, CAM_PITCH], ceiling.pitch),
+        (gimbal_yaw, offset[:, :, CAM_YAW] - offset[:, :, BODY_YAW], ceiling.yaw),
     ):
         beyond = (angle.min(axis=1) < low - AT_END) | (angle.max(axis=1) > high + AT_END)
         strays |= beyond & (np.abs(error).max(axis=1) > AT_END)

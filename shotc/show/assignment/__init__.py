@@ -53,9 +53,9 @@ class AssignGoals:
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
         changed = beside(mission, directors)
-        made = [director.trajectory(images) for director in directors]
-        fleets = tuple(flight for flight, _ in made)
-        diagnostics += [d for _, faults in made for d in faults]
+        trajectories = [director.trajectory(images) for director in directors]
+        fleets = tuple(flight for flight, _ in trajectories)
+        diagnostics += [d for _, faults in trajectories for d in faults]
         diagnostics += [d for flight in fleets for d in flashing(mission, flight)]
         stats = tuple(
             entry

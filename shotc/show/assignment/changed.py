@@ -51,8 +51,8 @@ def block_at(flight: FleetTrajectory, time: float) -> FlightBlock | None:
     stands within a block, not even for an instant.
     """
     known, breaks = windows(flight.coef), flight.breaks
-    shown = [s.start for s in flight.shown]
-    up = [w for w in known if breaks[w.last] <= min(shown) + NEAR_S]
+    starts = [s.start for s in flight.shown]
+    up = [w for w in known if breaks[w.last] <= min(starts) + NEAR_S]
     if up and breaks[up[0].first] - NEAR_S <= time <= breaks[up[-1].last] + NEAR_S:
         return FlightBlock(tuple(up))
     at = (k for k, w in enumerate(known) if breaks[w.first] - NEAR_S <= time <= breaks[w.last] + NEAR_S)
@@ -62,7 +62,7 @@ def block_at(flight: FleetTrajectory, time: float) -> FlightBlock | None:
     first = last
     while first > len(up) and known[first - 1].last == known[first].first:
         begin = float(breaks[known[first].first])
-        if any(abs(start - begin) <= NEAR_S for start in shown):
+        if any(abs(start - begin) <= NEAR_S for start in starts):
             break
         first -= 1
     return FlightBlock(tuple(known[first : last + 1]))
@@ -140,8 +140,8 @@ def _repeated(coef: Array, at: int) -> Array:
 def _timed(flight: FleetTrajectory, at: Callable[[float], float]) -> FleetTrajectory:
     """Return a trajectory with its phases and frames moved to other times."""
     phases = tuple(replace(p, start=at(p.start), end=at(p.end)) for p in flight.phases)
-    shown = tuple(replace(s, start=at(s.start), end=at(s.end)) for s in flight.shown)
-    return replace(flight, phases=phases, shown=shown)
+    pictures = tuple(replace(s, start=at(s.start), end=at(s.end)) for s in flight.shown)
+    return replace(flight, phases=phases, shown=pictures)
 
 
 def ends_of(flight: FleetTrajectory, stretch: Window) -> tuple[Array, Array]:

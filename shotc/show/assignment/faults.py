@@ -136,7 +136,7 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
     total = phases[-1].end - waited
     labels = [mission.origins.value((*fleet.path, "endurance"), "the endurance")]
     longest = sorted((p for p in phases if p.shot is not None), key=lambda p: p.start - p.end)
-    shown = sum(p.end - p.start for p in longest)
+    duration = sum(p.end - p.start for p in longest)
     labels += [
         mission.origins.key(d.path, "the longest display")
         for d in mission.displays
@@ -147,7 +147,7 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
         f"the flight of `{fleet.name}` takes {at_least(total)} s, and its endurance is "
         f"{plain(fleet.endurance)} s",
         tuple(labels),
-        (f"from lift-off to touch-down, of which {at_least(shown)} s are shown",),
+        (f"from lift-off to touch-down, of which {at_least(duration)} s are shown",),
         f"shorten the show by {at_least(total - fleet.endurance)} s, give its parts to several fleets, or, "
         f"if the battery has it, write `endurance: {at_least(total)} s`",
     )

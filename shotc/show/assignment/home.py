@@ -61,9 +61,9 @@ def _sink(
     score: FlightScore, fleet: Fleet, down: RiseColumns, layers: tuple[tuple[float, ...], float]
 ) -> None:
     """Write the vertical descent, in layers if the pads are nearer to each other than the separation."""
-    ways = down.pads - down.above
+    displacements = down.pads - down.above
     if take_off_of(fleet).layered:
         score.move(down.pads, sinking(*layers, down.layer, fleet.limits))
     else:
-        score.move(down.pads, fastest(ways, fleet.limits, 1.0))
+        score.move(down.pads, fastest(displacements, fleet.limits, 1.0))
     score.phase("land")

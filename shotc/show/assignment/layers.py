@@ -181,9 +181,9 @@ def _footage(image: Image, stage: EffectContext, times: Times) -> Footage:
 def _screen(image: Image, frames: ImageFrames, stage: EffectContext) -> Screen:
     """Return the rectangle of the image: around the middle of the lights as the audience sees them."""
     right, up, forward = _axes(stage)
-    away = stage.places - _eye(stage)
-    depth = np.maximum(away @ forward, LEAST_M)
-    seen = np.stack([(away @ right) / depth, (away @ up) / depth], axis=1)
+    offset = stage.places - _eye(stage)
+    depth = np.maximum(offset @ forward, LEAST_M)
+    seen = np.stack([(offset @ right) / depth, (offset @ up) / depth], axis=1)
     low, high = seen.min(axis=0), seen.max(axis=0)
     size = np.maximum(high - low, 1e-6)
     if image.fit != "stretch":

@@ -152,13 +152,13 @@ class Mover:
         easing = "ease-in-out" if picture is None else picture.easing
         # Arcs are requested although straight paths are free; a quarter of an ellipse is always wider than
         # these.
-        kept = Gaps(1.0, 1.0) if free is None else free
+        gaps = Gaps(1.0, 1.0) if free is None else free
 
         def about(pivot: Array) -> ArcMove:
-            return fastest_arc(ends, pivot, kept, self.fleet.limits, pace, easing)
+            return fastest_arc(ends, pivot, gaps, self.fleet.limits, pace, easing)
 
         move, lack = led(ends, self.sky.heights, surroundings, about)
-        own = isinstance(kept, LeastSize) and easing == "ease-in-out" and len(ends[0]) <= MOST_OWN_HEIGHTS
+        own = isinstance(gaps, LeastSize) and easing == "ease-in-out" and len(ends[0]) <= MOST_OWN_HEIGHTS
         if own and lack.metres <= ROUNDING_M:
             faster = self._own_heights(ends, move.pivot, pace)
             if faster is not None and faster.duration < move.duration:

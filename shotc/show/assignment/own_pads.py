@@ -69,19 +69,19 @@ def levels(starts: Array, ends: Array, least: float) -> NDArray[np.intp]:
     first, the lowest free level.
     """
     chosen = np.full(len(starts), -1, dtype=np.intp)
-    ways = ends - starts
-    order = np.argsort(-np.einsum("nd,nd->n", ways, ways), kind="stable")
+    displacements = ends - starts
+    order = np.argsort(-np.einsum("nd,nd->n", displacements, displacements), kind="stable")
     for count, i in enumerate(order):
         others = order[:count]
-        taken = np.unique(chosen[others[_nearest(starts, ways, i, others) < least - ROUNDING_M]])
+        taken = np.unique(chosen[others[_nearest(starts, displacements, i, others) < least - ROUNDING_M]])
         free = np.flatnonzero(taken != np.arange(len(taken)))
         chosen[i] = free[0] if len(free) else len(taken)
     return chosen
 
 
-def _nearest(starts: Array, ways: Array, one: int, others: NDArray[np.intp]) -> Array:
+def _nearest(starts: Array, displacements: Array, one: int, others: NDArray[np.intp]) -> Array:
     """Return the least distances of one drone from others during the flight, shape (m,), metres."""
-    apart, change = starts[others] - starts[one], ways[others] - ways[one]
+    apart, change = starts[others] - starts[one], displacements[others] - displacements[one]
     size = np.einsum("nd,nd->n", change, change)
     along = -np.einsum("nd,nd->n", apart, change)
     share = np.clip(along / np.where(size > 0.0, size, 1.0), 0.0, 1.0)

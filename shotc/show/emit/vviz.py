@@ -88,12 +88,12 @@ def _head(plan: VerifiedIR) -> Json:
 
 def _tags(plan: VerifiedIR) -> list[Json]:
     mission = plan.trajectory.keyframes.mission
-    shown = sorted(
+    tags = sorted(
         (round(s.start, 3), f"{s.display}: {picture_name(mission.display(s.display).pictures[s.picture])}")
         for flight in plan.trajectory.fleets
         for s in pictures_shown(flight)
     )
-    return [{"time": time, "tagType": "EffectStart", "tagID": name} for time, name in shown]
+    return [{"time": time, "tagType": "EffectStart", "tagID": name} for time, name in tags]
 
 
 def _performance(plan: VerifiedIR, drone: Sampled) -> Json:

@@ -181,8 +181,8 @@ class _Nearest:
         bound = np.minimum(self._other - near, far)
         goals = goals + step
         self._look(goals)
-        away = self.points - goals[self.labels]
-        self.own = np.sqrt(np.einsum("md,md->m", away, away))
+        offset = self.points - goals[self.labels]
+        self.own = np.sqrt(np.einsum("md,md->m", offset, offset))
         self._other = np.maximum(bound, self._gap[self.labels] - self.own)
         which = np.flatnonzero(self.own > self._other)
         distances, nearest = self._tree.query(self.points[which], k=2)

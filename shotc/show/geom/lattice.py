@@ -83,10 +83,10 @@ def laid(mould: Mould, step: float) -> Array:
     for phase in PHASES:
         shift = np.full(dimensions, phase * step)
         places = lattice(low - shift, high, step, mould.upright)
-        away = mould.shape.query(places, distance_upper_bound=mould.slack)[0]
-        inside = np.isfinite(away)
+        distances = mould.shape.query(places, distance_upper_bound=mould.slack)[0]
+        inside = np.isfinite(distances)
         if inside.sum() > len(best):
-            best, off = places[inside], away[inside]
+            best, off = places[inside], distances[inside]
     return best[np.argsort(off, kind="stable")]
 
 

@@ -52,8 +52,8 @@ def layers_of(count: int, upright: bool) -> Layers:
     shifts = ((0.0, 0.0), *(_SQUARE if square else _HEXAGON)[count])
     low = rows_of(np.full(2, -2.0), np.full(2, 4.0), 1.0, square)
     places = np.concatenate([low + np.array(shift) for shift in shifts])
-    away = np.linalg.norm(places - places[np.linalg.norm(places, axis=1).argmin()], axis=1)
-    seen = float(away[away > 1e-9].min())
+    distances = np.linalg.norm(places - places[np.linalg.norm(places, axis=1).argmin()], axis=1)
+    seen = float(distances[distances > 1e-9].min())
     return Layers(square, shifts, 1.0 if upright else sqrt(1.0 - seen**2), seen)
 
 
@@ -85,5 +85,5 @@ def widest_layers(mould: Mould, layers: Layers, number: int, least: float) -> tu
             low, best = middle, sheets
         else:
             high = middle
-    kept = np.linspace(0, len(best[0]) - 1, number).round().astype(np.intp)
-    return best[0][kept], best[1][kept]
+    chosen = np.linspace(0, len(best[0]) - 1, number).round().astype(np.intp)
+    return best[0][chosen], best[1][chosen]

@@ -90,13 +90,13 @@ def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
     closed = _closed(line)
     if not closed:
         turn[-1] = 0.0
-    kept: list[int] = []
+    chosen: list[int] = []
     for k in np.argsort(-turn, kind="stable")[: int((turn > CORNER_RAD).sum())] + 1:
-        if (np.linalg.norm((line[kept] - line[k]) * metric, axis=1) >= least).all():
-            kept.append(int(k))
-    if not kept:
+        if (np.linalg.norm((line[chosen] - line[k]) * metric, axis=1) >= least).all():
+            chosen.append(int(k))
+    if not chosen:
         return [_Part(line, not closed)]
-    cuts = np.sort(kept)
+    cuts = np.sort(chosen)
     if closed:
         line = np.concatenate([np.roll(line[:-1], -cuts[0], axis=0), line[cuts[:1] % (len(line) - 1)]])
         cuts = cuts[1:] - cuts[0]

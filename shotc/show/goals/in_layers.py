@@ -57,12 +57,12 @@ def layer_stats(
     """
     layers: Layers = layers_of(picture.layers, setting.upright)
     deep = (picture.layers - 1) * layers.depth * setting.least
-    away = AWAY_M if setting.viewpoint is None else float(np.linalg.norm(body.centre - setting.viewpoint))
+    distance = AWAY_M if setting.viewpoint is None else float(np.linalg.norm(body.centre - setting.viewpoint))
     return [
         (f"{name} layers", float(picture.layers)),
         (f"{name} layers deep m", deep),
         (f"{name} layers seen m", layers.seen * setting.least),
-        (f"{name} layers aside m", deep * ASIDE_M / away),
+        (f"{name} layers aside m", deep * ASIDE_M / distance),
     ]
 
 

@@ -201,9 +201,9 @@ class _Layouts:
             return None
         if not dark:
             return GoalLayout(fill, (), (None,), setting)
-        shown = lit(strokes)
-        goals = PlacedGoals(shown.points, shown.points[: shown.number], points)
-        return GoalLayout(fill, (goals,), (shown,), setting)
+        lit_goals = lit(strokes)
+        goals = PlacedGoals(lit_goals.points, lit_goals.points[: lit_goals.number], points)
+        return GoalLayout(fill, (goals,), (lit_goals,), setting)
 
     def _layered(self, setting: SpacingTask, fill: Fill) -> GoalLayout | Diagnostic:
         """Return a flat picture in layers, one behind another."""
@@ -213,9 +213,9 @@ class _Layouts:
         wrong = _wrong(self.task, setting, body, points)
         if points is None or wrong is not None:
             return wrong or no_points(self.task.mission, self.task.picture)
-        shown = in_layers(body, setting, self._draw(fill), self.task.picture.layers)
-        goals = PlacedGoals(shown.points, shown.points[: shown.number], points)
-        return GoalLayout(fill, (goals,), (shown,), setting)
+        layered = in_layers(body, setting, self._draw(fill), self.task.picture.layers)
+        goals = PlacedGoals(layered.points, layered.points[: layered.number], points)
+        return GoalLayout(fill, (goals,), (layered,), setting)
 
     def _apart(
         self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]], *, dark: bool
@@ -258,9 +258,9 @@ class _Layouts:
         """Return the layout of a single frame with given goals, and the other drones dark behind them."""
         points = self._draw(fill)(LEAST_POINTS)
         goals = PlacedGoals(places, places, points)
-        shown = Lit(places, len(places), lattice)
+        lit_goals = Lit(places, len(places), lattice)
         few = len(places) < max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number)
-        frame = shown if few else _with_dark(shown, setting) or shown
+        frame = lit_goals if few else _with_dark(lit_goals, setting) or lit_goals
         return GoalLayout(fill, (goals,), (frame,), setting)
 
     def _fewer(self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]]) -> GoalLayout | None:

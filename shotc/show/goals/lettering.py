@@ -45,8 +45,8 @@ def lettering_body(source: Lettering, files: Mapping[str, bytes]) -> FlatBody | 
 def _unwritable(source: Lettering, missing: list[str]) -> SourceFault:
     if not missing:
         return SourceFault("D055", "text", "the text has no letters to show", (), "write some")
-    shown = ", ".join(f"`{c}`" for c in missing[:10])
-    note = f"{len(missing)} of its letters are missing: {shown}"
+    letters = ", ".join(f"`{c}`" for c in missing[:10])
+    note = f"{len(missing)} of its letters are missing: {letters}"
     message = f"the font cannot write `{source.text[:40]}`"
     return SourceFault("D055", "text", message, (note,), "take another `font`, or write it without them")
 

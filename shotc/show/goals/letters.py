@@ -47,15 +47,15 @@ def too_few_lights(
         f"its {'edges' if fill == 'outline' else 'strokes'} are {length:.0f} m long, so its lights are "
         f"{length / number:.1f} m apart; these letters need one every {_step(source, body, fill):.1f} m"
     )
-    ways = [
+    remedies = [
         "make it larger, with more drones"
         if enough is None
         else f"use {enough} drones (`count: {enough}`) or more"
     ]
     if fill == "outline" and number >= lights_needed(source, body, "volume"):
-        ways.append("leave `fill` out")
+        remedies.append("leave `fill` out")
     message = f"{number} drones are too few to read `{source.text[:40]}`"
-    help_ = ", or ".join([*ways, "fewer letters"])
+    help_ = ", or ".join([*remedies, "fewer letters"])
     return Diagnostic("D057", message, (place_of(mission, picture),), (note,), help_)
 
 

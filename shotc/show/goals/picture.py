@@ -41,8 +41,8 @@ def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
     layout = laid_out(task, setting, bodies)
     if isinstance(layout, Diagnostic):
         return PictureResult((), (layout,))
-    shown = [goals.shown for goals in layout.placed]
-    faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.surroundings)
+    places = [goals.shown for goals in layout.placed]
+    faults = in_the_way(task.mission, task.fleet, task.picture, places, setting.surroundings)
     if faults:
         return PictureResult((), tuple(faults))
     if not layout.flown:
@@ -62,9 +62,9 @@ def _warnings(
     """Return the warnings about a picture that can be flown."""
     diagnostics = []
     if layout.bright < setting.number:
-        ways = _remedies(task, setting, bodies, layout)
+        remedies = _remedies(task, setting, bodies, layout)
         diagnostics.append(
-            too_dark(task.mission, task.fleet, task.picture, ways, layout.bright, layout.setting)
+            too_dark(task.mission, task.fleet, task.picture, remedies, layout.bright, layout.setting)
         )
     small = too_small(task.mission, task.fleet, task.picture, seen_spacing(task.picture, setting), setting)
     if small is not None:

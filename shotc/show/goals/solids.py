@@ -57,10 +57,10 @@ def _drawn(source: Sphere | Box | Torus, fill: Fill, count: int, rng: np.random.
         return None
     if isinstance(source, Torus):
         return _of_torus(source, fill, count, rng)
-    away = rng.normal(size=(count, 3))
-    away /= np.linalg.norm(away, axis=1)[:, None]
+    directions = rng.normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
     reach = rng.random(count) ** (1.0 / 3.0) if fill == "volume" else np.ones(count)
-    return np.asarray(source.radius * reach[:, None] * away)
+    return np.asarray(source.radius * reach[:, None] * directions)
 
 
 def _of_box(size: Array, fill: Fill, count: int, rng: np.random.Generator) -> Array:

@@ -206,7 +206,7 @@ def _onto(points: Array, goals: Array) -> Array:
         return goals
     near = points[cKDTree(points).query(goals, k=NEIGHBOUR_COUNT)[1]]
     middle = near.mean(axis=1)
-    away = near - middle[:, None]
-    normal = np.linalg.eigh(np.einsum("nki,nkj->nij", away, away))[1][:, :, 0]
+    offset = near - middle[:, None]
+    normal = np.linalg.eigh(np.einsum("nki,nkj->nij", offset, offset))[1][:, :, 0]
     off = np.einsum("ni,ni->n", goals - middle, normal)
     return np.asarray(goals - off[:, None] * normal)

@@ -175,15 +175,15 @@ def _staged(
 def _order(tracks: RecordedTracks, requirements: FitRequirements) -> tuple[NDArray[np.intp], bool]:
     """Return the tracks in the order of the pads where they start, and whether each starts on a pad."""
     starts = np.stack([track.curve.ctrl[0, 0] for track in tracks.tracks])
-    away, nearest = cKDTree(starts).query(requirements.pads)
-    fits = requirements.first and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    distances, nearest = cKDTree(starts).query(requirements.pads)
+    fits = requirements.first and distances.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
     return (np.asarray(nearest) if fits else np.arange(len(starts))), bool(fits)
 
 
 def _landed(ends: Array, requirements: FitRequirements) -> Array | None:
     """Return the pads (n, 3) on which drones end, if each ends on its own, else None."""
-    away, nearest = cKDTree(requirements.pads).query(ends)
-    fits = requirements.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    distances, nearest = cKDTree(requirements.pads).query(ends)
+    fits = requirements.last and distances.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
     return requirements.pads[nearest] if fits else None
 
 
@@ -218,9 +218,9 @@ def _upright(points: Array, times: Array, of: tuple[Array, int], leaned: list[Le
     """
     pads, count = of
     part = slice(None, count) if count > 0 else slice(count, None)
-    away = norm(points[:, part, :2] - pads[:, None, :2])
+    distances = norm(points[:, part, :2] - pads[:, None, :2])
     low = pads[:, None, 2] - points[:, part, 2]
-    off = np.maximum(away, low)
+    off = np.maximum(distances, low)
     if off.max() <= ON_PAD_M:
         return True
     drone, k = (int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))

@@ -140,20 +140,20 @@ def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, 
     for row, light in zip(levels, lights, strict=True):
         for k in range(3):
             row[:, k] = np.interp(times, light.times, [color[k] for color in light.colors])
-    kept = _kept(times, levels)
-    return times[kept], np.asarray(np.rint(levels[:, kept]), dtype=np.uint8)
+    distinct = _kept(times, levels)
+    return times[distinct], np.asarray(np.rint(levels[:, distinct]), dtype=np.uint8)
 
 
 def _kept(times: Array, levels: NDArray[np.float32]) -> list[int]:
     """Return which times are kept: swing-door trending (Bristol 1990) over all lights at once."""
-    kept = [0]
+    distinct = [0]
     low = np.full(levels[:, 0].shape, -np.inf)
     high = np.full(levels[:, 0].shape, np.inf)
     for k in range(1, len(times)):
-        span = times[k] - times[kept[-1]]
-        slope = (levels[:, k] - levels[:, kept[-1]]) / span
+        span = times[k] - times[distinct[-1]]
+        slope = (levels[:, k] - levels[:, distinct[-1]]) / span
         if ((slope < low) | (slope > high)).any():
-            kept.append(k - 1)
+            distinct.append(k - 1)
             span = times[k] - times[k - 1]
             slope = (levels[:, k] - levels[:, k - 1]) / span
             low, high = np.full(low.shape, -np.inf), np.full(high.shape, np.inf)
@@ -162,5 +162,5 @@ def _kept(times: Array, levels: NDArray[np.float32]) -> list[int]:
             np.minimum(high, slope + TOLERANCE_LEVELS / span),
         )
     if len(times) > 1:
-        kept.append(len(times) - 1)
-    return kept
+        distinct.append(len(times) - 1)
+    return distinct

@@ -51,8 +51,8 @@ def common(coef: Array, apart: Distances) -> float:
     nearest = np.array([nearest_pair(before), nearest_pair(after)])
     # Positions are rounded after they are matched, so products may be slightly negative.
     lost = 2.0 * float(scalars.max(axis=1).prod()) * max(0.0, -crossing(before, after).product)
-    kept = _least(scalars * nearest[:, None]) ** 2 - lost
-    return max(sqrt(max(kept, 0.0)) - 2.0 * missed, 0.0)
+    least_square = _least(scalars * nearest[:, None]) ** 2 - lost
+    return max(sqrt(max(least_square, 0.0)) - 2.0 * missed, 0.0)
 
 
 def _least(scalars: Array) -> float:

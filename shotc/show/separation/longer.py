@@ -54,16 +54,16 @@ class MoveBetweenStops:
     def of(flight: FleetTrajectory, breaks: Array, reference: Array) -> MoveBetweenStops:
         """Return the stretch between two stops of a flight."""
         start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
-        inside = [shown for shown in flight.shown if start <= shown.start <= end]
-        shown = inside[-1] if inside else None
+        inside = [picture for picture in flight.shown if start <= picture.start <= end]
+        picture = inside[-1] if inside else None
         same = [
             s
             for s in inside
-            if shown is not None and (s.display, s.picture) == (shown.display, shown.picture)
+            if picture is not None and (s.display, s.picture) == (picture.display, picture.picture)
         ]
         from_pads = float(breaks[-1]) <= flight.shown[0].start + 1e-9
         return MoveBetweenStops(
-            breaks, reference, shown, "period" if len(same) > 1 else "transition", from_pads
+            breaks, reference, picture, "period" if len(same) > 1 else "transition", from_pads
         )
 
     @property

@@ -179,14 +179,14 @@ class Drones:
         """Return the drones of which one is always the busiest, whatever the path; the others are never
         limiting.
         """
-        kept: set[int] = set()
+        busy: set[int] = set()
         for a, b in angles(DIRECTION_COUNT):
             rates = a * self.parts[0] + b * self.parts[1]
             level = np.einsum("nd,nd->n", rates[:, :2], rates[:, :2])
             whole = level + rates[:, 2] ** 2
-            kept |= {int(level.argmax()), int(whole.argmax())}
-            kept |= {int(rates[:, 2].argmax()), int(rates[:, 2].argmin())}
-        return self.of_rows(sorted(kept))
+            busy |= {int(level.argmax()), int(whole.argmax())}
+            busy |= {int(rates[:, 2].argmax()), int(rates[:, 2].argmin())}
+        return self.of_rows(sorted(busy))
 
     def of_rows(self, rows: list[int]) -> Drones:
         """Return the drones of some rows."""

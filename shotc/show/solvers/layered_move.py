@@ -52,8 +52,8 @@ class LayeredMove:
 
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""
-        ways = goals - starts
-        return [starts + share[self.layer, None] * ways for share in self.shares.T[3:-3]]
+        displacements = goals - starts
+        return [starts + share[self.layer, None] * displacements for share in self.shares.T[3:-3]]
 
 
 def rising(heights: Sequence[float], step: float, layer: NDArray[np.intp], limits: Limits) -> LayeredMove:

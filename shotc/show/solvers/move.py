@@ -74,8 +74,8 @@ class CommonMove:
 
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""
-        ways = goals - starts
-        return [starts + share * ways for share in self.s[3:-3]]
+        displacements = goals - starts
+        return [starts + share * displacements for share in self.s[3:-3]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,15 +88,18 @@ class Ceilings:
     names: list[str]
 
     @staticmethod
-    def of(ways: Array, limits: Limits, pace: float) -> Ceilings:
+    def of(displacements: Array, limits: Limits, pace: float) -> Ceilings:
         """Return the bounds of every limit times ``pace`` for moves g - x, shape (n, 3), m."""
-        across, far = np.hypot(ways[:, 0], ways[:, 1]), np.linalg.norm(ways, axis=1)
+        across, far = (
+            np.hypot(displacements[:, 0], displacements[:, 1]),
+            np.linalg.norm(displacements, axis=1),
+        )
         with np.errstate(divide="ignore"):
             rates = np.stack(
                 [
                     limits.speed / across,
-                    limits.climb / np.maximum(ways[:, 2], 0.0),
-                    limits.descent / np.maximum(-ways[:, 2], 0.0),
+                    limits.climb / np.maximum(displacements[:, 2], 0.0),
+                    limits.descent / np.maximum(-displacements[:, 2], 0.0),
                 ]
             )
             scale = LIMIT_SHARE * pace
@@ -124,19 +127,19 @@ class Ceilings:
         steps : largest derivatives of the shape, shape (3,)
         unit : its unit of time, s
         """
-        kept = (self.first, self.second, self.third)
-        tight = [steps[k] / unit ** (k + 1) / float(kept[k].min()) for k in range(3)]
+        limits = (self.first, self.second, self.third)
+        tight = [steps[k] / unit ** (k + 1) / float(limits[k].min()) for k in range(3)]
         k = int(np.argmax(tight))
-        drone = int(kept[k].argmin())
+        drone = int(limits[k].argmin())
         return (self.names[drone], "acceleration", "jerk")[k], drone
 
 
-def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> CommonMove:
+def fastest(displacements: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> CommonMove:
     """Return the shortest move of an easing that is found, within every limit times ``pace`` for all drones.
 
-    ways : g - x, shape (n, 3), m
+    displacements : g - x, shape (n, 3), m
     """
-    ceilings = Ceilings.of(ways, limits, pace)
+    ceilings = Ceilings.of(displacements, limits, pace)
     best: tuple[float, Array] | None = None
     for pieces in PIECES:
         shapes, steps = family(pieces, easing)
@@ -151,19 +154,19 @@ def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-
     return CommonMove(best[1], best[0], *ceilings.binding(_steps(best[1][None])[0], best[0]))
 
 
-def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
-    """Return the least duration of one of ``pieces`` pieces for all straight moves ``ways`` (n, 3), s."""
+def least_piece(pieces: int, displacements: Array, limits: Limits) -> float:
+    """Return the least duration of one of ``pieces`` pieces for ``displacements`` (n, 3), seconds."""
     if pieces < 4:
-        return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
-    ceilings = Ceilings.of(ways, limits, 1.0)
+        return inf if np.abs(displacements).max(initial=0.0) > 0.0 else 0.0
+    ceilings = Ceilings.of(displacements, limits, 1.0)
     return float(ceilings.least(family(pieces)[1]).min())
 
 
-def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
+def least_pieces(pieces: int, displacements: Array, limits: Limits) -> Array:
     """Return the value of ``least_piece`` for every drone alone, s, shape (n,)."""
     if pieces < 4:
-        return np.where(np.abs(ways).max(axis=1) > 0.0, inf, 0.0)
-    ceilings, steps = Ceilings.of(ways, limits, 1.0), family(pieces)[1]
+        return np.where(np.abs(displacements).max(axis=1) > 0.0, inf, 0.0)
+    ceilings, steps = Ceilings.of(displacements, limits, 1.0), family(pieces)[1]
     with np.errstate(divide="ignore"):
         first = steps[:, :1] / ceilings.first
         second = np.sqrt(steps[:, 1:2] / ceilings.second)

@@ -139,8 +139,8 @@ def bounded(breaks: Array, reference: Array, bounds: DerivativeBounds, free: sli
 def short(breaks: Array, coef: Array, bounds: DerivativeBounds, digits: int) -> Array:
     """Return control points (n, K, 3), rounded for those drones that stay within the bounds."""
     rounded = np.round(coef, digits)
-    kept = overdraft(breaks, rounded, bounds) <= 0.0
-    return np.where(kept[:, None, None], rounded, coef)
+    within = overdraft(breaks, rounded, bounds) <= 0.0
+    return np.where(within[:, None, None], rounded, coef)
 
 
 def deviation(breaks: Array) -> Array:

@@ -69,17 +69,19 @@ class WaveMove:
 
     def between(self, starts: Array, goals: Array) -> list[Array]:
         """Return the control points between the two formations, shape (n, 3) each."""
-        ways = goals - starts
-        return [starts + share[:, None] * ways for share in self.s.T[3:-3]]
+        displacements = goals - starts
+        return [starts + share[:, None] * displacements for share in self.s.T[3:-3]]
 
 
-def fastest_wave(ways: Array, departs: Array, limits: Limits, pace: float, easing: Easing) -> WaveMove:
+def fastest_wave(
+    displacements: Array, departs: Array, limits: Limits, pace: float, easing: Easing
+) -> WaveMove:
     """Return the shortest move of an easing that is found, within every limit times ``pace`` for all drones.
 
-    ways : g - x, shape (n, 3), m
+    displacements : g - x, shape (n, 3), m
     departs : start of each after the first, shape (n,), s
     """
-    ceilings = Ceilings.of(ways, limits, pace)
+    ceilings = Ceilings.of(displacements, limits, pace)
     every = ramps_of(easing)
     peaks = np.array([ramps.peaks for ramps in every])
     least = np.maximum(ceilings.least(peaks), LEAST_PIECE_S)

@@ -83,15 +83,15 @@ class _Fitter:
         """Return a drone that could not even fly straight from the first to the last position in time, or
         None.
         """
-        ways, pieces = reference[:, -1] - reference[:, 0], len(breaks) - 1
-        least = least_pieces(pieces, ways, self.fleet.limits)
+        displacements, pieces = reference[:, -1] - reference[:, 0], len(breaks) - 1
+        least = least_pieces(pieces, displacements, self.fleet.limits)
         slow = int(np.argmax(least))
         return slow if least[slow] > np.diff(breaks).min() else None
 
     def _too_quick(self, breaks: Array, reference: Array, drone: int) -> Diagnostic:
-        ways = reference[:, -1] - reference[:, 0]
-        period = least_piece(len(breaks) - 1, ways, self.fleet.limits)
-        distance = float(np.linalg.norm(ways[drone]))
+        displacements = reference[:, -1] - reference[:, 0]
+        period = least_piece(len(breaks) - 1, displacements, self.fleet.limits)
+        distance = float(np.linalg.norm(displacements[drone]))
         return too_quick(self.mission, self.fleet, (self.flight, float(breaks[0])), (drone, distance), period)
 
     def stats(self) -> list[tuple[str, float | str]]:

@@ -105,8 +105,8 @@ def _nearest(reference: FleetReference, gains: Gains, now: float, position: Arra
     low, high = (first, last) if gains.as_printed else (now - gains.reach, now + gains.reach)
     low, high = np.clip([low, high], first, last)
     times = np.linspace(low, high, max(2, int(np.ceil((high - low) / SPACING_S)) + 1))
-    away = reference.together(times) - position[:, None]
-    nearest = times[np.argmin(np.einsum("ntd,ntd->nt", away, away), axis=1)]
+    offset = reference.together(times) - position[:, None]
+    nearest = times[np.argmin(np.einsum("ntd,ntd->nt", offset, offset), axis=1)]
     # One Newton step leads from the sample to the foot of the perpendicular.
     place, rate, _ = reference.each(nearest)
     step = _dot(position - place, rate) / np.maximum(_dot(rate, rate), SLOW_M_S**2)

@@ -50,9 +50,9 @@ class Gusts:
 
     def after(self, blowing: Array, step: float, rng: np.random.Generator) -> Array:
         """Return the gusts (n, 3) a step later; exact for a step of any length."""
-        kept = exp(-step / self.memory)
-        fresh = self.deviation * sqrt(1.0 - kept * kept)
-        return kept * blowing + fresh * rng.standard_normal(blowing.shape)
+        decay = exp(-step / self.memory)
+        fresh = self.deviation * sqrt(1.0 - decay * decay)
+        return decay * blowing + fresh * rng.standard_normal(blowing.shape)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -124,8 +124,8 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
         _with_slack(high, s, slack + ca.inf),
     ]
     given = [u, x0, p, g]
-    made = ca.Function("motion", given, motion), ca.Function("step", given, [*motion, *step])
-    return Horizon(*made, laid, prices, n, s.u.numel(), s.x.numel())
+    functions = ca.Function("motion", given, motion), ca.Function("step", given, [*motion, *step])
+    return Horizon(*functions, laid, prices, n, s.u.numel(), s.x.numel())
 
 
 class Evaluation:

@@ -133,10 +133,10 @@ def _drawn(s: FramingSituation, near: DrawnPose, place: float) -> list[float]:
     place : weight of a squared half frame
     """
     middle = np.mean([body.point[0] for body in s.subjects if body.wanted is not None], axis=0)
-    away = max(float(np.linalg.norm(near.places[0] - middle)), 1.0)
+    distance = max(float(np.linalg.norm(near.places[0] - middle)), 1.0)
     root = NEAR_WEIGHT * sqrt(place)
     turns = [0.0 if angle is None else root for angle in (near.yaw, near.pitch)]
-    return [near.yaw or 0.0, near.pitch or 0.0, root / away, *turns]
+    return [near.yaw or 0.0, near.pitch or 0.0, root / distance, *turns]
 
 
 def _shifted(index: Array, last: Plan) -> Array:

@@ -72,8 +72,8 @@ class StaticObstacles:
         if len(self._rooms) <= LEAST_CONSTRAINTS:
             return tuple(self._rooms)
         x, y, radius = self._discs.T
-        away = np.hypot(x - place[0], y - place[1]) - radius
-        return tuple(self._rooms[i] for i in np.flatnonzero(away < distance + REACH_M))
+        distances = np.hypot(x - place[0], y - place[1]) - radius
+        return tuple(self._rooms[i] for i in np.flatnonzero(distances < distance + REACH_M))
 
 
 def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic, walls: Walls) -> RowCounts:

@@ -72,8 +72,8 @@ def off_place(camera: CameraSymbols, subject: Symbols) -> Any:
 
 def off_size(camera: CameraSymbols, subject: Symbols) -> Any:
     """Return the logarithm of the size asked for over the size (Eq. 8)."""
-    away = length(subject.point - camera.place)
-    return subject.sized * ca.log(2 * camera.half[1] * away * subject.size / subject.diameter)
+    distance = length(subject.point - camera.place)
+    return subject.sized * ca.log(2 * camera.half[1] * distance * subject.size / subject.diameter)
 
 
 def off_view(camera: CameraSymbols, subject: Symbols) -> Any:

@@ -124,10 +124,10 @@ def _polygon(p: Any, corners: Any) -> Any:
     faces, squares = [], []
     for i in range(k):
         start, side = corners[:, i], corners[:, (i + 1) % k] - corners[:, i]
-        away, square = p[:2] - start, ca.sumsqr(side)
-        faces.append((side[1] * away[0] - side[0] * away[1]) / ca.sqrt(square))
-        along = ca.fmin(ca.fmax(ca.dot(away, side) / square, 0), 1)
-        squares.append(ca.sumsqr(away - along * side))
+        offset, square = p[:2] - start, ca.sumsqr(side)
+        faces.append((side[1] * offset[0] - side[0] * offset[1]) / ca.sqrt(square))
+        along = ca.fmin(ca.fmax(ca.dot(offset, side) / square, 0), 1)
+        squares.append(ca.sumsqr(offset - along * side))
     inside = _folded(ca.fmax, faces)
     return ca.if_else(inside > 0, ca.sqrt(_folded(ca.fmin, squares) + TINY_M**2), inside)
 

@@ -150,8 +150,8 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
     """Return labels on the limits that bind, at most two, and on the wind if it lowers one."""
     by_span: dict[Span, Label] = {}
     for name in holdup.names[:2]:
-        shown = _shown(drone, name)
-        label = mission.origins.value((*drone.path, *shown.key), shown.words)
+        limit = _shown(drone, name)
+        label = mission.origins.value((*drone.path, *limit.key), limit.words)
         before = by_span.get(label.span)
         by_span[label.span] = (
             label if before is None else before._replace(text=f"{before.text} and {label.text}")
@@ -222,11 +222,11 @@ def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
     """Return a limit in the mission's unit, multiplied by a factor and then rounded up."""
-    shown = _shown(drone, name)
+    limit = _shown(drone, name)
     value = factor * getattr(ceiling_of(drone), name)
     if factor == 1.0:
-        return f"{_written(mission, shown, value):.2f} {shown.unit}"
-    return f"{up(_written(mission, shown, value, BENDING_RATIO)):.2f} {shown.unit}"
+        return f"{_written(mission, limit, value):.2f} {limit.unit}"
+    return f"{up(_written(mission, limit, value, BENDING_RATIO)):.2f} {limit.unit}"
 
 
 def _written(mission: MissionIR, shown: _Shown, value: float, share: float = 1.0) -> float:

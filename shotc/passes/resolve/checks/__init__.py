@@ -81,9 +81,9 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     sound = [shot for shot in mission.shots if shot.path not in misplaced]
     faults = [*homes, *(d for shot, film in filmed for d in check_reference(mission, shot, film))]
     faults += [d for _, _, d in places]
-    kept = [(shot, film) for shot, film in filmed if shot.path not in misplaced]
-    faults += [d for shot, film in kept for d in check_heights(mission, shot, film)]
-    faults += [d for shot, film in kept for d in check_shake(mission, shot, film)]
+    well_placed = [(shot, film) for shot, film in filmed if shot.path not in misplaced]
+    faults += [d for shot, film in well_placed for d in check_heights(mission, shot, film)]
+    faults += [d for shot, film in well_placed for d in check_shake(mission, shot, film)]
     faults += check_framing(mission, {path for _, path in wrong})
     if timing:
         faults += check_timing(mission, sound, schedule=order and not homes and not wrong)

@@ -149,10 +149,10 @@ def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[MeshClearance]:
         held = mesh.holds(p)
         closest_points = nearest(mesh.surface, p, np.where(held, np.inf, needed))
         names = [mesh.name_at(int(mesh.surface.source[t])) if t >= 0 else "" for t in closest_points.triangle]
-        away = np.where(held, -closest_points.distance, closest_points.distance)
+        distances = np.where(held, -closest_points.distance, closest_points.distance)
         near = [
             MeshClearance(mesh, float(a), needed - float(a), name)
-            for a, name in zip(away, names, strict=True)
+            for a, name in zip(distances, names, strict=True)
         ]
         worst = [max(pair, key=lambda n: n.lack) for pair in zip(worst or near, near, strict=True)]
     return worst
@@ -174,11 +174,11 @@ def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClear
     if not len(pairs):
         return None
     count = len(pairs)
-    away = segment_distances(
+    distances = segment_distances(
         mesh.surface.triangles[pairs.triangle], np.repeat(a, count, axis=0), np.repeat(b, count, axis=0)
     )
-    k = int(away.argmin())
-    least = float(away[k])
+    k = int(distances.argmin())
+    least = float(distances[k])
     name = mesh.name_at(int(mesh.surface.source[pairs.triangle[k]]))
     return MeshClearance(mesh, least, body - least, name) if least < body - ROUNDING_M else None
 

@@ -217,8 +217,8 @@ def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> D
 def _enough(course: StartedFraming, need: float) -> float:
     """Return the elevation that would be sufficient at the same distance, degrees; 90 where none is."""
     x, y, z = course.shot.ideal.points[0][1] if course.shot.ideal is not None else (0.0, 0.0, 0.0)
-    away = (x * x + y * y + z * z) ** 0.5
-    rise = (z + need - min(p[2] for p in course.poses)) / max(away, 1e-9)
+    distance = (x * x + y * y + z * z) ** 0.5
+    rise = (z + need - min(p[2] for p in course.poses)) / max(distance, 1e-9)
     return up(degrees(asin(rise)), 0) if rise < 1.0 else 90.0
 
 

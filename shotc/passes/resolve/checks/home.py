@@ -54,15 +54,15 @@ def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
     filming = {shot.drone for shot in mission.shots}
     least = mission.rules.separation
     for one, other in combinations(mission.drones, 2):
-        away = dist(one.home, other.home)
-        if away >= least - ROUNDING_M or not filming & {one.name, other.name}:
+        distance = dist(one.home, other.home)
+        if distance >= least - ROUNDING_M or not filming & {one.name, other.name}:
             continue
         labels = (
             mission.origins.value((*other.path, "home")),
             mission.origins.value((*one.path, "home"), "the other home"),
         )
-        note = f"they are {away:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre"
-        help_ = _apart(mission, other, one) or f"move one of them by {at_least(least - away)} m"
+        note = f"they are {distance:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre"
+        help_ = _apart(mission, other, one) or f"move one of them by {at_least(least - distance)} m"
         message = f"the homes of `{one.name}` and `{other.name}` are too near"
         yield Diagnostic("G019", message, labels, (note,), help_)
 
@@ -127,8 +127,8 @@ def _remedy(mission: MissionIR, drone: Drone, obstacle: Clearance) -> str:
     nearby.
     """
     home = drone.home
-    ways = obstacle._replace(metres=drone.radius).ways_out(home)
-    places = [outward(home, (x, y, home[2])) for x, y, _ in ways if (x, y) != home[:2]]
+    moves = obstacle._replace(metres=drone.radius).ways_out(home)
+    places = [outward(home, (x, y, home[2])) for x, y, _ in moves if (x, y) != home[:2]]
     around = clearances_of(mission, drone)
     free = [q for q in places if all(_obstructed(mission, drone._replace(home=q), o) is None for o in around)]
     if not free:

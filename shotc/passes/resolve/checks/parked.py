@@ -32,7 +32,7 @@ def check_parked(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def _too_near(mission: MissionIR, shot: Shot, keyframe: Keyframe, other: Drone) -> Diagnostic:
-    least, away = mission.rules.separation, dist(keyframe.at, other.home)
+    least, distance = mission.rules.separation, dist(keyframe.at, other.home)
     pad = Clearance(drone_owner(other), point(other.home), least)
     place = ", ".join(f"{c:.2f}" for c in keyframe.at)
     return Diagnostic(
@@ -42,6 +42,6 @@ def _too_near(mission: MissionIR, shot: Shot, keyframe: Keyframe, other: Drone) 
             mission.origins.value((*keyframe.path, "at")),
             mission.origins.value((*other.path, "home"), "it films nothing, and stands here"),
         ),
-        (f"they are {away:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre",),
+        (f"they are {distance:.2f} m apart; `rules.separation` asks for {least:.2f} m, centre to centre",),
         free_move(mission, mission.drone(shot.drone), keyframe.at, pad) or f"move the home of `{other.name}`",
     )

@@ -48,11 +48,11 @@ class FileReader:
 
         linked : whether a plan always links to it; otherwise a plan contains it if it is small enough
         """
-        kept = self._folder
-        if isinstance(kept, KeptFiles) and name in kept.linked:
-            data = _read_linked(kept, self._origins, name, path)
+        folder = self._folder
+        if isinstance(folder, KeptFiles) and name in folder.linked:
+            data = _read_linked(folder, self._origins, name, path)
         else:
-            data = read_file(kept, self._origins, name, path, MAX_LINKED_BYTES)
+            data = read_file(folder, self._origins, name, path, MAX_LINKED_BYTES)
         if isinstance(data, Diagnostic):
             return data
         if linked or len(data) > MAX_TABLE_BYTES:
@@ -90,8 +90,8 @@ def read_file(
     if folder is None:
         return Diagnostic("N008", f"cannot read `{name}`", label, ("the mission has no folder",), NO_FOLDER)
     if isinstance(folder, KeptFiles):
-        kept = folder.tables.get(name)
-        return Diagnostic("N008", f"`{name}` is not kept", label, help=NOT_KEPT) if kept is None else kept
+        table = folder.tables.get(name)
+        return Diagnostic("N008", f"`{name}` is not kept", label, help=NOT_KEPT) if table is None else table
     try:
         root = folder.resolve()
         place = (root / name).resolve()

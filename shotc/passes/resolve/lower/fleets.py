@@ -67,8 +67,8 @@ def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagno
         if numbers[-1] > written.count:
             labels = (label, files.origins.value((*path, "count"), "the count"))
             message = f"fleet `{path[-1]}` has {written.count} drones, and no drone {numbers[-1]}"
-            kept = [number for number in numbers if number <= written.count]
-            help_ = f"{_instead(kept)}, or write `count: {numbers[-1]}`"
+            valid = [number for number in numbers if number <= written.count]
+            help_ = f"{_instead(valid)}, or write `count: {numbers[-1]}`"
             faults.append(Diagnostic("D135", message, labels, help=help_))
         shared = [number for number in numbers if number in group_of]
         if shared:

@@ -14,11 +14,11 @@ from shotc.spec.shot import ShotBase
 def expanded(kind: Kind, shot: ShotBase, scene: Scene) -> Expansion:
     """Return the expansion of a shot by a kind of another package, or P008 on the line of the kind."""
     try:
-        made: Any = kind.expand(shot, scene)
-        wrong = _wrong(made)
+        expansion: Any = kind.expand(shot, scene)
+        wrong = _wrong(expansion)
     except Exception as fault:  # noqa: BLE001  a plugin may raise anything
         return _refused(kind, scene, fault)
-    return _refused(kind, scene, wrong) if wrong else made
+    return _refused(kind, scene, wrong) if wrong else expansion
 
 
 def _refused(kind: Kind, scene: Scene, fault: Exception | str) -> Expansion:

@@ -34,9 +34,9 @@ def named_pictures(
                 help_ = f"write `name: {name}-2`"
                 faults.append(Diagnostic("D129", f"there are two targets `{name}`", (label,), help=help_))
                 continue
-            made = _body(picture, _allowance(spec, display))
-            targets[name] = None if made is None else Target(name, made[0], made[1], where)
-            if made is None:
+            body = _body(picture, _allowance(spec, display))
+            targets[name] = None if body is None else Target(name, body[0], body[1], where)
+            if body is None:
                 faults.append(_without_size(cast.origins, picture))
     return targets, faults
 

@@ -23,9 +23,9 @@ def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
     if spec.output.emit is not None:
         return spec.output.emit
     displays = [shot for shot in spec.shots if shot.kind == "display"]
-    shown = _show_emitters(spec) if displays else ()
+    emitters = _show_emitters(spec) if displays else ()
     filmed = _film_emitters(spec) if len(displays) < len(spec.shots) or not displays else ()
-    return tuple(dict.fromkeys((*filmed, *shown)))
+    return tuple(dict.fromkeys((*filmed, *emitters)))
 
 
 def _show_emitters(spec: MissionSpec) -> tuple[str, ...]:

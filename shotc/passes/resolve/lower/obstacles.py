@@ -91,8 +91,8 @@ def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) ->
         )
     from shotc.passes.resolve.lower.prisms import buildings_mesh
 
-    made = buildings_mesh(houses, written.file, terrain, files)
-    return made._replace(faults=(*faults, *made.faults))
+    obstacles = buildings_mesh(houses, written.file, terrain, files)
+    return obstacles._replace(faults=(*faults, *obstacles.faults))
 
 
 def not_judged(what: str, name: str, path: tuple[str, ...], files: Files) -> Diagnostic:

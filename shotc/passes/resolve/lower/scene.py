@@ -156,16 +156,16 @@ class _Scene(NamedTuple):
         half = max((0.5 * median_spacing(c.surface) + c.moved for c in clouds), default=0.0)
         lengths = [len(piece) for piece in pieces]
         whole = np.concatenate(pieces)
-        made = bodies(whole[: sum(lengths[: len(solid)])])  # points enclose no volume, and there are many
-        points = np.full(sum(lengths[len(solid) :]), len(made.closed))
+        solids = bodies(whole[: sum(lengths[: len(solid)])])  # points enclose no volume, and there are many
+        points = np.full(sum(lengths[len(solid) :]), len(solids.closed))
         return ObstacleMesh(
             kind="scene",
             file=self.written.file,
             surface=clouds[0].surface if clouds and not pieces[1:] else surface_of(whole),
             part=np.repeat(np.arange(len(pieces)), lengths),
             names=tuple(p.name or stem for p in (*solid, *loose)),
-            body=np.concatenate([made.body, points]),
-            closed=np.append(made.closed, [False]),
+            body=np.concatenate([solids.body, points]),
+            closed=np.append(solids.closed, [False]),
             spacing=half,
         )
 

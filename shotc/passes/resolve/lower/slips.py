@@ -60,13 +60,13 @@ def _looks_like_degrees(origin: GeoOrigin, lat: float, lon: float) -> bool:
 def _slip(written: _Written, place: Vec2, origin: GeoOrigin, origins: OriginMap) -> Diagnostic:
     x, y = written.place[:2]
     base = (origin.lat_deg, origin.lon_deg, 0.0)
-    away = hypot(*to_world((*place, 0.0), base)[:2])
+    distance = hypot(*to_world((*place, 0.0), base)[:2])
     return Diagnostic(
         "G045",
         f"[{x:.10g}, {y:.10g}] is in metres here, and looks like latitude and longitude",
         (origins.value(written.path), origins.key(("world", "origin"), "the origin")),
         (
-            f"it is {hypot(x, y):.1f} m from the origin in metres, and {away:.0f} m in degrees "
+            f"it is {hypot(x, y):.1f} m from the origin in metres, and {distance:.0f} m in degrees "
             f"({origin.lat_deg:.10g}, {origin.lon_deg:.10g})",
         ),
         f"write `{_key(written.path)}{place_on_earth(*place, _height(written.place))}`",

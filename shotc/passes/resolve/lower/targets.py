@@ -52,25 +52,25 @@ def targets(
     spec: MissionSpec, put: Put, tracks: Mapping[str, Track], standing: Obstacles, origins: OriginMap
 ) -> Targets:
     """Return the bodies and groups; standing : the buildings and the scene."""
-    made = Targets(dict.fromkeys(spec.targets), (), ())
+    known = Targets(dict.fromkeys(spec.targets), (), ())
     for name, target in spec.targets.items():
         if target.building is not None:
-            made = _with_building(made, name, bodies_of_building(spec, name, standing, origins), spec)
+            known = _with_building(known, name, bodies_of_building(spec, name, standing, origins), spec)
         elif target.parts is None:
             body = {name: _body(name, target, put, tracks.get(name))}
-            made = made._replace(
-                by_name={**made.by_name, **body}, faults=(*made.faults, *_sideways(name, target, origins))
+            known = known._replace(
+                by_name={**known.by_name, **body}, faults=(*known.faults, *_sideways(name, target, origins))
             )
     for name, target in spec.targets.items():
         if target.parts is not None:
             wrong = tuple(_wrong_parts(spec, name, target.parts, origins))
-            parts = [made.by_name.get(part) for part in target.parts]
+            parts = [known.by_name.get(part) for part in target.parts]
             whole = [part for part in parts if part is not None]
             group = None
             if len(whole) == len(parts) and not wrong:
-                group = _group(name, [body for part in whole for body in _its(part, made.boxes)])
-            made = made._replace(by_name={**made.by_name, name: group}, faults=(*made.faults, *wrong))
-    return made
+                group = _group(name, [body for part in whole for body in _its(part, known.boxes)])
+            known = known._replace(by_name={**known.by_name, name: group}, faults=(*known.faults, *wrong))
+    return known
 
 
 def _with_building(

@@ -125,15 +125,15 @@ def _track(spec: TrackSpec, put: Put, files: Files, path: KeyPath) -> Recording 
 
 def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath) -> Track | Diagnostic:
     """Return the motion along points at one speed; repeated points are dropped."""
-    kept = points[:1]
-    kept += [p for o, p in pairwise(points) if dist(o, p) > SAME_POINT_M]
-    if len(kept) < 2:
+    chosen = points[:1]
+    chosen += [p for o, p in pairwise(points) if dist(o, p) > SAME_POINT_M]
+    if len(chosen) < 2:
         label = origins.value((*path, "points"))
         return Diagnostic(
             "M001", "the track goes nowhere", (label,), help="give points apart, or `at` instead of `track`"
         )
-    times = accumulate((dist(a, b) / speed for a, b in pairwise(kept)), initial=0.0)
-    return Track(tuple(times), tuple(kept))
+    times = accumulate((dist(a, b) / speed for a, b in pairwise(chosen)), initial=0.0)
+    return Track(tuple(times), tuple(chosen))
 
 
 def _in_order(times: tuple[float, ...], i: int) -> str:

@@ -278,15 +278,15 @@ def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diag
     wider = tan(lens.widest / 2) > WIDER_LENS_RATIO * tan(preset.hfov / 2)
     if not (lens.zooms or wider):
         return []
-    shown = f"shows {degrees(lens.widest):.4g} deg"
+    angle = f"shows {degrees(lens.widest):.4g} deg"
     if lens.zooms:
-        shown = f"zooms from {degrees(lens.widest):.4g} to {degrees(lens.longest):.4g} deg"
+        angle = f"zooms from {degrees(lens.widest):.4g} to {degrees(lens.longest):.4g} deg"
     return [
         Diagnostic(
             "K022",
             f"the lens of `{drone.name}` is not the one built into its model",
             (origins.key((*drone.path, "camera")), origins.value((*drone.path, "model"), "the model")),
-            (f"it {shown}; `{spec.model}` has a camera built in that shows {degrees(preset.hfov):.4g} deg",),
+            (f"it {angle}; `{spec.model}` has a camera built in that shows {degrees(preset.hfov):.4g} deg",),
             "take the lens out of `camera`, unless the machine carries it: what is framed with it is not in"
             " the film of another one",
         )

@@ -93,8 +93,8 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     lacks.
     """
     x, y, z = drone.home
-    ways = (*(share * lack + NUDGE_M for share in FARTHER), *FAR_M)
-    for metres, k in product(ways, range(PAD_DIRECTIONS)):
+    distances = (*(share * lack + NUDGE_M for share in FARTHER), *FAR_M)
+    for metres, k in product(distances, range(PAD_DIRECTIONS)):
         angle = 2.0 * pi * k / PAD_DIRECTIONS
         there = drone._replace(home=(round(x + metres * sin(angle), 2), round(y + metres * cos(angle), 2), z))
         free = transit_point(flight_space(mission, there), pad_space(mission, there), there)

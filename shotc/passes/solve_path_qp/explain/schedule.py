@@ -148,9 +148,9 @@ def _pad_met(mission: MissionIR, drone: Drone, meets: Meets) -> Diagnostic:
         f"at t = {met.time:.1f} s the target reaches {at_least(met.lack)} m into the body, at the "
         f"best of the times to {verb} that were tried",
     )
-    away = at_least(target.radius + mission.rules.beside_target(drone.radius))
+    distance = at_least(target.radius + mission.rules.beside_target(drone.radius))
     remedies = [f"start the shot at {at_least(meets.start)} s"] if meets.start is not None else []
-    remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {away} m")
+    remedies.append(f"put `home` where the axis of `{target.name}` comes no nearer than {distance} m")
     message = f"`{drone.name}` cannot {verb} clear of target `{target.name}`"
     return Diagnostic("M013", message, labels, notes, ", or ".join(remedies))
 

@@ -105,9 +105,9 @@ def _seen(flight: FleetTrajectory, times: Array, behind: Scenery) -> tuple[Array
     Both have shape (n, T, 3); the radius is 0 for a light that is hidden or outside the picture.
     """
     at = places(flight.breaks, flight.coef, times)
-    away = at - np.array(behind.seen.eye)
+    offset = at - np.array(behind.seen.eye)
     view = behind.seen.view(WIDTH / HEIGHT)
-    u, v, depth = view.project((away[..., 0], away[..., 1], away[..., 2]))
+    u, v, depth = view.project((offset[..., 0], offset[..., 1], offset[..., 2]))
     inside = (depth > 0.5) & (np.abs(u) < 1.0) & (np.abs(v) < 1.0)
     inside &= ~behind.hides(at.reshape(-1, 3)).reshape(inside.shape)
     pixels = np.where(inside, GLOW_M / (np.maximum(depth, 0.5) * 2.0 * float(view.half_width)) * WIDTH, 0.0)
@@ -118,9 +118,9 @@ def _seen(flight: FleetTrajectory, times: Array, behind: Scenery) -> tuple[Array
 
 def _add(light: Levels, spots: Array, colors: Levels) -> None:
     """Add lights to a picture, each distributed over the four nearest pixels."""
-    shown = spots[:, 2] > 0
-    x, y, pixels = spots[shown].T
-    glow = colors[shown] * np.clip(pixels, 0.7, 2.0)[:, None].astype(np.float32) ** 2
+    bright = spots[:, 2] > 0
+    x, y, pixels = spots[bright].T
+    glow = colors[bright] * np.clip(pixels, 0.7, 2.0)[:, None].astype(np.float32) ** 2
     column, row = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
     across, down = x - column, y - row
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):

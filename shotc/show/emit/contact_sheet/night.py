@@ -52,12 +52,12 @@ def _lights(at: Array, colors: Colors, behind: Scenery) -> Array:
     """Return the light on every pixel, shape (rows, columns, 3); a nearer drone is a larger spot."""
     columns, rows = behind.size
     picture = np.zeros((rows, columns, 3))
-    away = at - np.array(behind.seen.eye)
+    offset = at - np.array(behind.seen.eye)
     view = behind.seen.view(columns / rows)
-    u, v, depth = view.project((away[:, 0], away[:, 1], away[:, 2]))
-    shown = (depth > 0.5) & (np.abs(u) < 1.1) & (np.abs(v) < 1.1)
+    u, v, depth = view.project((offset[:, 0], offset[:, 1], offset[:, 2]))
+    in_view = (depth > 0.5) & (np.abs(u) < 1.1) & (np.abs(v) < 1.1)
     share = GLOW_M / (depth * 2.0 * float(view.half_width))
-    for i in np.flatnonzero(shown):
+    for i in np.flatnonzero(in_view):
         x, y = (u[i] + 1.0) / 2.0 * columns - 0.5, (1.0 - v[i]) / 2.0 * rows - 0.5
         radius = columns * float(np.clip(share[i], SMALLEST, LARGEST))
         _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT_GREY_LEVEL / 255.0))

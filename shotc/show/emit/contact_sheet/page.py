@@ -43,12 +43,12 @@ def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
 
 
 def _page(plan: VerifiedIR, dpi: float) -> bytes:
-    shown = boards(plan)
-    height = HEADING + sum(_height(board) for board in shown) + FOOTING
+    sheets = boards(plan)
+    height = HEADING + sum(_height(board) for board in sheets) + FOOTING
     canvas = Canvas(WIDTH, height, dpi)
     _heading(canvas, height, plan)
     top = height - HEADING
-    for board in shown:
+    for board in sheets:
         _board(canvas, top, (board, dpi), plan)
         top -= _height(board)
     return canvas.png()

@@ -59,12 +59,12 @@ class Scenery:
         A place outside of the picture counts as visible.
         """
         columns, rows = self.size
-        away = p - np.array(self.seen.eye)
-        u, v, depth = self.seen.view(columns / rows).project((away[:, 0], away[:, 1], away[:, 2]))
+        offset = p - np.array(self.seen.eye)
+        u, v, depth = self.seen.view(columns / rows).project((offset[:, 0], offset[:, 1], offset[:, 2]))
         inside = (depth > 0.0) & (np.abs(u) < 1.0) & (np.abs(v) < 1.0)
         column = ((np.where(inside, u, 0.0) + 1.0) / 2.0 * columns).astype(int)
         row = ((1.0 - np.where(inside, v, 0.0)) / 2.0 * rows).astype(int)
-        nearer = self.distance[row, column] < np.linalg.norm(away, axis=1) - HIDDEN_M
+        nearer = self.distance[row, column] < np.linalg.norm(offset, axis=1) - HIDDEN_M
         return np.asarray(inside & nearer)
 
 
@@ -76,10 +76,10 @@ def scenery(mission: MissionIR, seen: Audience, size: tuple[int, int]) -> Scener
     distance = np.full((rows, columns), np.inf)
     for faces in _standing(mission, eye):
         raster = raster_of(faces, project, (rows, columns))
-        away = np.where(raster.shown, np.linalg.norm(raster.points - eye, axis=-1), np.inf)
-        nearer = away < distance
-        colors[nearer] = _hazy(raster, away)[nearer]
-        distance = np.minimum(distance, away)
+        depths = np.where(raster.shown, np.linalg.norm(raster.points - eye, axis=-1), np.inf)
+        nearer = depths < distance
+        colors[nearer] = _hazy(raster, depths)[nearer]
+        distance = np.minimum(distance, depths)
     return Scenery(seen, colors, maximum_filter(distance, 3))
 
 

@@ -104,11 +104,11 @@ def anchors(shapes: Sequence[Array]) -> list[Array]:
     middle = np.concatenate(edges).mean(axis=0)
     for k, edge in enumerate(edges):
         others = [other for i, other in enumerate(edges) if i != k]
-        away = cKDTree(np.concatenate(others)).query(edge)[0] if others else np.full(len(edge), APART_IN)
+        distances = cKDTree(np.concatenate(others)).query(edge)[0] if others else np.full(len(edge), APART_IN)
         out = edge - middle
         turn = 2.0 * pi * k / len(edges)
         towards = (out @ [np.sin(turn), np.cos(turn)]) / max(float(np.linalg.norm(out, axis=1).max()), 1e-9)
-        anchors.append(edge[int(np.argmax(np.minimum(away, APART_IN) / APART_IN + 0.1 * towards))])
+        anchors.append(edge[int(np.argmax(np.minimum(distances, APART_IN) / APART_IN + 0.1 * towards))])
     return anchors
 
 

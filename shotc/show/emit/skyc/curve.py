@@ -65,11 +65,11 @@ def curves(flight: FleetTrajectory) -> Curves:
 
 def _moving(at: Array) -> tuple[int, int]:
     """Return the last break before the first motion, and the first break after the last motion."""
-    away = np.linalg.norm(at - at[:, :1], axis=-1).max(axis=0) > MOVES_M
+    distances = np.linalg.norm(at - at[:, :1], axis=-1).max(axis=0) > MOVES_M
     back = np.linalg.norm(at - at[:, -1:], axis=-1).max(axis=0) > MOVES_M
-    if not away.any():
-        return 0, len(away) - 1
-    return max(int(np.argmax(away)) - 1, 0), int(np.flatnonzero(back)[-1]) + 1
+    if not distances.any():
+        return 0, len(distances) - 1
+    return max(int(np.argmax(distances)) - 1, 0), int(np.flatnonzero(back)[-1]) + 1
 
 
 def _thinned(times: Array, at: Array, rate: Array, span: tuple[int, int]) -> tuple[list[int], float]:

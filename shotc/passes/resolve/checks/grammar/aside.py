@@ -43,8 +43,8 @@ def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
         return None
     middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
     turn_deg = degrees(acos(turn)) + 0.5  # so that a place rounded to centimetres is still beyond it
-    ways = (ceil(middle + turn_deg), -ceil(turn_deg - middle))
-    return min(ways, key=lambda candidate: abs(wrapped(radians(candidate - now))))
+    azimuths = (ceil(middle + turn_deg), -ceil(turn_deg - middle))
+    return min(azimuths, key=lambda candidate: abs(wrapped(radians(candidate - now))))
 
 
 def _place(right: ShotFrame, azimuth: int) -> str:

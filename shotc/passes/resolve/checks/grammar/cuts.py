@@ -59,8 +59,8 @@ def check_jump(
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
     remedy = to_the_side(mission, after, left, right, VIEWS_APART_RAD)
-    ways = [remedy] if remedy else []
-    ways += _as_far(mission, after, right, ratio) or [
+    remedies = [remedy] if remedy else []
+    remedies += _as_far(mission, after, right, ratio) or [
         f"begin {'it' if remedy else f'`{after.id}`'} much nearer or much farther away"
     ]
     return Diagnostic(
@@ -71,7 +71,7 @@ def check_jump(
             f"the camera moves {int(degrees(angle))} deg round it, which is then {change}; a cut needs "
             f"30 deg or more, or a size that changes by a factor of {ALIKE_SIZE_RATIO:.1f}",
         ),
-        f"{', or '.join(ways)}, or write `allow: [jump-cut]` in it",
+        f"{', or '.join(remedies)}, or write `allow: [jump-cut]` in it",
     )
 
 
@@ -84,9 +84,9 @@ def _as_far(mission: MissionIR, after: Shot, right: ShotFrame, ratio: float) -> 
     if path not in mission.origins.values or (*path, 0) in mission.origins.values:
         return []
     x, y, z = right.offset
-    away = hypot(x, y, z)
+    distance = hypot(x, y, z)
     target = mission.target(right.names[0])
-    near, far = away * ratio / ALIKE_SIZE_RATIO, away * ratio * ALIKE_SIZE_RATIO
+    near, far = distance * ratio / ALIKE_SIZE_RATIO, distance * ratio * ALIKE_SIZE_RATIO
     clear = target.radius + mission.rules.beside_target(mission.drone(after.drone).radius)
     remedies = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
     if near > hypot(clear, z):

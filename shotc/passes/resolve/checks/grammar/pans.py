@@ -84,8 +84,8 @@ def _slower(mission: MissionIR, shot: Shot, pan: PanStretch) -> tuple[Label, str
 def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[PanStretch]:
     """Yield the pans of a camera that follows a moving subject, over a second each."""
     start, duration = start_of(mission, shot), shot.timing.duration
-    kept = shot.ideal is not None and shot.ideal.aim is not None
-    if start is None or duration is None or kept or not shot.subjects:
+    has_aim = shot.ideal is not None and shot.ideal.aim is not None
+    if start is None or duration is None or has_aim or not shot.subjects:
         return
     if shot.keyframes and _followed(shot.keyframes) is None:
         return

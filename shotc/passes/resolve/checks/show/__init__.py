@@ -34,8 +34,8 @@ def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Di
 
 def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
     """Yield the fleets that no display names."""
-    shown = [shot for shot in spec.shots if hasattr(shot, "fleet")]
-    used = {group_name(shot.fleet, getattr(shot, "group", None)) for shot in shown}
+    displays = [shot for shot in spec.shots if hasattr(shot, "fleet")]
+    used = {group_name(shot.fleet, getattr(shot, "group", None)) for shot in displays}
     known = {group_name(name, group) for name, f in spec.fleets.items() for group in (None, *f.groups)}
     if not used <= known:  # an unknown name, which is reported, may stand for any of them
         return

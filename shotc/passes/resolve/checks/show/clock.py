@@ -24,14 +24,14 @@ ROUNDING_S = 1e-6  # seconds of rounding
 def check_clock(mission: MissionIR) -> list[Diagnostic]:
     """Return infeasible transitions, orders and starts; if there are none, flights beyond the endurance."""
     fleets = {fleet.name: fleet for fleet in mission.fleets}
-    shown = [d for d in mission.displays if d.fleet in fleets]
-    faults = [fault for d in shown for fault in _transitions(mission, d, fleets[d.fleet])]
-    waiting = [d for d in shown if d.timing.after in {shot.id for shot in mission.shots}]
+    displays = [d for d in mission.displays if d.fleet in fleets]
+    faults = [fault for d in displays for fault in _transitions(mission, d, fleets[d.fleet])]
+    waiting = [d for d in displays if d.timing.after in {shot.id for shot in mission.shots}]
     if waiting:
         return [*faults, *(_after_camera(mission, display) for display in waiting)]
-    order = _in_order(shown)
-    if len(order) < len(shown):
-        return [*faults, _never(mission, next(d for d in shown if d not in order))]
+    order = _in_order(displays)
+    if len(order) < len(displays):
+        return [*faults, _never(mission, next(d for d in displays if d not in order))]
     if not faults:
         faults = _starts(mission, order, fleets)
     if not faults:
@@ -286,28 +286,28 @@ def _late(mission: MissionIR, late: _Late) -> Diagnostic:
 
 def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     """Yield the fault of a fleet whose displays alone last longer than its endurance."""
-    shown = [d for d in mission.displays if d.fleet == fleet.name]
-    if not shown:
+    displays = [d for d in mission.displays if d.fleet == fleet.name]
+    if not displays:
         return
     limits = fleet.limits
-    pictures = sum(least_display(d, limits) for d in shown)
+    pictures = sum(least_display(d, limits) for d in displays)
     changes = sum(
         _change(bounds(a.pictures[-1].source), b.pictures[0], _Drive(limits, b.pace))
-        for a, b in pairwise(shown)
+        for a, b in pairwise(displays)
     )
-    first, last = _begin(shown[0], limits), _begin(shown[-1], limits)
+    first, last = _begin(displays[0], limits), _begin(displays[-1], limits)
     if first is not None and last is not None:
-        between = last - first + least_display(shown[-1], limits)
+        between = last - first + least_display(displays[-1], limits)
     else:
         between = 0.0
     down = least_travel([(0.0, 0.0, take_off_of(fleet).heights[0]), (0.0, 0.0, 0.0)], limits)
-    up = _there(shown[0], fleet, _Free(0.0, None))
+    up = _there(displays[0], fleet, _Free(0.0, None))
     flight = max(pictures + changes, between) + up + down
     if flight <= fleet.endurance:
         return
     labels = (
         mission.origins.value((*fleet.path, "endurance")),
-        mission.origins.key((*shown[-1].path, "frames"), "its last pictures"),
+        mission.origins.key((*displays[-1].path, "frames"), "its last pictures"),
     )
     note = (
         f"its pictures with the ways between take at least {at_least(flight, 1)} s, its endurance is "

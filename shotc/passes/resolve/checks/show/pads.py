@@ -50,8 +50,8 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     nearest = nearest_pair(level, bodies)
     if nearest is None:
         return _many_layers(mission, fleet)
-    away = dist(level[nearest.one], level[nearest.other])
-    which = f"pads {nearest.one + 1} and {nearest.other + 1} are {away:.2f} m apart"
+    distance = dist(level[nearest.one], level[nearest.other])
+    which = f"pads {nearest.one + 1} and {nearest.other + 1} are {distance:.2f} m apart"
     help_ = wider(mission, fleet, bodies.across)
     if dist(fleet.pads[nearest.one], fleet.pads[nearest.other]) < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
@@ -116,8 +116,8 @@ def _needed(apart: Apart) -> str:
 def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
     """Return a label on the number, or the file, that determines the distance of pads."""
     path = (*fleet.path, "layout")
-    ways = (("grid", "spacing"), ("circle", "radius"), ("file",))
-    written = ((*path, *key) for key in ways if (*path, *key) in mission.origins.values)
+    keys = (("grid", "spacing"), ("circle", "radius"), ("file",))
+    written = ((*path, *key) for key in keys if (*path, *key) in mission.origins.values)
     return mission.origins.value(next(written, path), text)
 
 
@@ -152,12 +152,12 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
     if none.
     """
     reach = max(standing.apart.across, moved.apart.across)
-    ways: list[tuple[float, int, str]] = []
+    moves: list[tuple[float, int, str]] = []
     for axis, (back, on) in enumerate((("west", "east"), ("south", "north"))):
         low, high = min(p[axis] for p in standing.pads), max(p[axis] for p in standing.pads)
         first, last = min(p[axis] for p in moved.pads), max(p[axis] for p in moved.pads)
-        ways += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
-    for by, axis, direction in sorted(ways, key=lambda option: abs(option[0])):
+        moves += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
+    for by, axis, direction in sorted(moves, key=lambda option: abs(option[0])):
         x, y = (by, 0.0) if axis == 0 else (0.0, by)
         there = _displaced(mission, moved, (x, y))
         others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
