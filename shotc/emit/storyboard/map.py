@@ -65,12 +65,14 @@ def draw_map(canvas: Canvas, box: PageRectangle, board: ShotBoard, mission: Miss
     draw_on_map(canvas, sheet, mission)
     zones(canvas, sheet, mission)
     canvas.lines([sheet.place(board.flight)], (*FLIGHT, 0.8), 0.9, box, dash=(4.0, 2.5))
+    pad = _pad(sheet, board)
+    canvas.polygons([p.outline() for p in pad], WHITE, INK, 1.0)
     for moment in board.moments:
         _frustum(canvas, sheet, moment, board.drone.aspect)
     _tracks(canvas, sheet, board, whole)
     _path(canvas, sheet, board, mission)
     _targets(canvas, sheet, mission)
-    taken = _furniture(canvas, sheet, (step, relief), board, mission)
+    taken = [*_furniture(canvas, sheet, (step, relief), board, mission), *pad]
     _numbers(canvas, sheet, board, mission, taken)
     if relief is not None:
         taken += contour_heights(canvas, sheet, relief, taken + _content(sheet, board, mission))
@@ -143,6 +145,12 @@ def _tracks(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) 
         if target.track is not None:
             line = sheet.place(np.array([target.at(float(t)) for t in times]))
             canvas.lines([line], (*shade(SUBJECT, 0.75), 0.9), 1.1, sheet.box, dash=(1.5, 1.5))
+
+
+def _pad(sheet: Sheet, board: ShotBoard) -> list[PageRectangle]:
+    """Return where the drone's pad is drawn; nothing if it is off the map."""
+    pad = _square(sheet.place(np.array(board.drone.home)), 0.055)
+    return [pad] if sheet.box.holds(pad) else []
 
 
 def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
@@ -282,11 +290,7 @@ def _names(
             labels.append(MapLabel(target.name, shade(SUBJECT, 0.75), seen))
     named = len(labels)
     bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
-    pad = _square(sheet.place(np.array(board.drone.home)), 0.055)
-    if sheet.box.holds(pad):
-        canvas.polygons([pad.outline()], WHITE, INK, 1.0)
-        taken.append(pad)
-        labels.append(MapLabel("home", QUIET, pad))
+    labels += [MapLabel("home", QUIET, pad) for pad in _pad(sheet, board)]
     for zone in mission.zones:
         seen = sheet.visible(sheet.outline(zone.solid))
         if zone.keep == "out" and seen is not None:

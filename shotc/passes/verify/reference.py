@@ -30,8 +30,9 @@ Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
 
-    Between two references the wanted one lies on the straight line from one to the other. Both claims are
-    hard where the shot promises something, else soft.
+    Between two references the wanted one lies on the straight line from one to the other. A shot that does
+    not frame its target would hide what is wrong with its picture, so that the first claim is always hard.
+    The second one is hard where the shot promises something, else soft.
     """
     shot, hard = placed.shot, placed.shot.promise != Promise()
     if shot.ideal is not None and not is_keyed(shot):
@@ -50,7 +51,7 @@ def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) ->
         for t, a, _ in _sampled(flight, legs)
     ]
     missing, where = max(gaps, key=lambda pair: pair[0])
-    limit = Limit("frames without their target", 0.0, "", shot.path, hard=hard, shot=shot.id)
+    limit = Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
     yield claim(flight, limit, WorstValue(missing, float(where[0]), "sampled"))
     errors = [
         _off(flight, shot.id, leg)
@@ -88,12 +89,17 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         k = int(np.argmax(away))
         if away[k] > off:
             off, when = float(away[k]), float(t[k])
-    for name, limit, worst, unit in (
-        ("frames without their target", 0.0, missing, ""),
-        ("reference off its composition", OFF_LINE_HALF_FRAMES, off, "of half a frame"),
-    ):
-        bound = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
-        yield claim(flight, bound, WorstValue(worst, when, "sampled"))
+    limit = Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
+    yield claim(flight, limit, WorstValue(missing, when, "sampled"))
+    off_place = Limit(
+        "reference off its composition",
+        OFF_LINE_HALF_FRAMES,
+        "of half a frame",
+        shot.path,
+        hard=hard,
+        shot=shot.id,
+    )
+    yield claim(flight, off_place, WorstValue(off, when, "sampled"))
 
 
 def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:

@@ -25,9 +25,9 @@ from tests.support.two_target_plans import pair_plan
 
 @contextmanager
 def bodies() -> Iterator[list[tuple[str, PageRectangle]]]:
-    """Collect the targets that pictures and maps show, by name, with the rectangle each takes."""
+    """Collect the targets and pads that pictures and maps show, by name, with the rectangle each takes."""
     found: list[tuple[str, PageRectangle]] = []
-    places, shape = frame.name_places, map._body
+    places, shape, pad = frame.name_places, map._body, map._pad
 
     def seen(shown, mission):
         things = places(shown, mission)
@@ -41,7 +41,12 @@ def bodies() -> Iterator[list[tuple[str, PageRectangle]]]:
             found.append((target.name, place))
         return outline
 
+    def padded(sheet, board):
+        found.extend(("pad", place) for place in pad(sheet, board))
+        return pad(sheet, board)
+
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(map, "_pad", padded)
         patch.setattr(frame, "name_places", seen)
         patch.setattr(map, "_body", drawn)
         yield found
@@ -102,6 +107,18 @@ def straight_down() -> VerifiedIR:
     return VerifiedIR(replace(plan.trajectory, drones=(above,)), plan.certificate)
 
 
+def over_its_pad() -> VerifiedIR:
+    """The half orbit of a drone whose pad is below the first keyframe."""
+    plan = orbit_plan()
+    keyframes = plan.trajectory.keyframes
+    x, y, _ = keyframes.mission.shots[0].keyframes[0].at
+    drone = replace(keyframes.mission.drones[0], home=(x, y, 0.0))
+    mission = replace(keyframes.mission, drones=(drone,))
+    return VerifiedIR(
+        replace(plan.trajectory, keyframes=replace(keyframes, mission=mission)), plan.certificate
+    )
+
+
 def among(plan: VerifiedIR, targets: tuple[Target, ...]) -> VerifiedIR:
     keyframes = plan.trajectory.keyframes
     mission = replace(keyframes.mission, targets=targets)
@@ -111,7 +128,7 @@ def among(plan: VerifiedIR, targets: tuple[Target, ...]) -> VerifiedIR:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("make", [orbit_plan, pair_plan, crowded, straight_down])
+@pytest.mark.parametrize("make", [orbit_plan, pair_plan, crowded, straight_down, over_its_pad])
 def test_no_label_lies_over_a_target_or_another_label(make: Callable[[], VerifiedIR]) -> None:
     assert overlaps(make()) == []
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil, hypot
 from typing import NamedTuple
 
@@ -153,7 +154,6 @@ def _cell(canvas: Canvas, at: tuple[float, float], what: tuple[Board, SheetFrame
     for i, time in enumerate(moment.way):
         box = PageRectangle(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
         _sky(canvas, box, (board, time), behind.way)
-        canvas.text(box.x + 0.05, box.y + 0.05, as_minutes(time), Type(7.5, WHITE))
     box = PageRectangle(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board, moment.time), behind.picture)
     _scale(canvas, box, _depth(board, moment, behind.picture.seen))
@@ -179,6 +179,14 @@ def _cell(canvas: Canvas, at: tuple[float, float], what: tuple[Board, SheetFrame
     canvas.text(box.right, y - 0.19, text, Type(8.5, QUIET, across="right"))
     if moment.way:
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
+        _times(canvas, PageRectangle(x, y - 0.36, width, 0.15), moment.way)
+
+
+def _times(canvas: Canvas, box: PageRectangle, way: Sequence[float]) -> None:
+    """Write the times of the small frames below them, that of the top one first; lights fill the frames."""
+    each = box.width / len(way)
+    for i, time in enumerate(way):
+        canvas.write(box.x + i * each, box.y, as_minutes(time), Type(7.5, QUIET), each - SLIT_IN)
 
 
 def _sky(canvas: Canvas, box: PageRectangle, what: tuple[Board, float], behind: Scenery) -> None:

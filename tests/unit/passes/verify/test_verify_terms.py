@@ -11,6 +11,7 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.limits import Timing
 from shotc.ir.phases import Phase
+from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from tests.support.records import replace
@@ -98,6 +99,21 @@ def test_a_target_is_framed_between_all_its_keyframes() -> None:
     missing = claim(with_track(framing=(framing,)), "frames without their target")
     assert missing.worst == pytest.approx(375, abs=1)
     assert not missing.holds
+
+
+def test_a_shot_that_promises_nothing_has_to_frame_its_target_too() -> None:
+    """Else it could point its framing elsewhere, and nobody would know that its own target is hidden."""
+    elsewhere = replace(PLAN.drones[0].framing[0], target="elsewhere")
+    ir = with_shot(promise=Promise())
+    flight = replace(ir.drones[0], framing=(elsewhere,))
+    other = replace(MISSION.targets[0], name="elsewhere", path=("targets", "elsewhere"))
+    keyframes = replace(
+        ir.keyframes, mission=replace(ir.keyframes.mission, targets=(*MISSION.targets, other))
+    )
+    ir = replace(ir, drones=(flight,), keyframes=keyframes)
+    assert claim(with_shot(promise=Promise()), "frames without their target").holds
+    assert not claim(ir, "frames without their target").holds
+    assert "V024" in codes(ir)
 
 
 def waiting(end: float) -> TrajectoryIR:

@@ -15,10 +15,11 @@ from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FrameTimes
 from shotc.ir.trajectory import VerifiedIR
+from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet import EMITTER
 from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
 from shotc.show.emit.contact_sheet.night import hidden_lights, night
-from shotc.show.emit.contact_sheet.page import MAP, MARGIN
+from shotc.show.emit.contact_sheet.page import MAP, MARGIN, WIDTH
 from shotc.show.emit.contact_sheet.scenery import Scenery, backdrop, scenery
 from shotc.show.emit.contact_sheet.stands import anchors, outlines
 from tests.support import show_flights
@@ -245,6 +246,24 @@ def test_a_picture_counts_the_lights_that_shine() -> None:
     with texts() as found:
         EMITTER.emit(replace(plan, trajectory=replace(plan.trajectory, fleets=(dark,))))
     assert sum(t.text.endswith(f"{len(flight.coef) - 17} of {len(flight.coef)} lights") for t in found) == 2
+
+
+@pytest.mark.slow
+def test_no_time_is_written_over_the_lights_of_a_small_frame() -> None:
+    plan = show_flights.plan()
+    ways = [as_minutes(time) for board in boards(plan) for moment in board.moments for time in moment.way]
+    with texts() as found:
+        (artifact,) = EMITTER.emit(plan).artifacts
+    page = np.asarray(Image.open(BytesIO(artifact.data)).convert("L")).astype(int)
+    times = [t for t in found if t.text in ways and t.style.color == QUIET]
+    assert sorted(t.text for t in times) == sorted(ways)
+    for t in times:
+        dots = page.shape[1] / WIDTH
+        rows = slice(page.shape[0] - round(t.box.top * dots), page.shape[0] - round(t.box.y * dots))
+        assert (
+            page[rows, round(t.box.x * dots) : round(t.box.right * dots)].min() > 60
+        )  # ink on paper, no night
+    assert min(t.capital for t in times) >= 9.0 - 1e-9
 
 
 @pytest.mark.long
