@@ -170,26 +170,26 @@ def _lower(checked: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx
     seated = setting._replace(seat=seat, deadline=options.deadline)
     if mission.displays:
         return _lower_both(keyframes, seated, options, ctx)
-    done = run_refined(passes_of((*FILM, VERIFY), seated), keyframes, ctx, seat, options.stop_after)
-    return done._replace(diagnostics=(*faults, *done.diagnostics))
+    lowered = run_refined(passes_of((*FILM, VERIFY), seated), keyframes, ctx, seat, options.stop_after)
+    return lowered._replace(diagnostics=(*faults, *lowered.diagnostics))
 
 
 def _lower_both(
     keyframes: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx: PassContext
 ) -> PipelineRun:
     """Plan the displays of fleets, then the shots of cameras outside their airspace; verify both together."""
-    shown = _lower_show(keyframes, SHOW, setting, options, ctx)
-    if shown.value is None or options.stop_after == shown.reports[-1].name:
-        return shown
+    lowered_show = _lower_show(keyframes, SHOW, setting, options, ctx)
+    if lowered_show.value is None or options.stop_after == lowered_show.reports[-1].name:
+        return lowered_show
     from shotc.show.beside_cameras import beside, too_early
 
-    early = [waits_longer(keyframes.mission, shot, end) for shot, end in too_early(shown.value)]
+    early = [waits_longer(keyframes.mission, shot, end) for shot, end in too_early(lowered_show.value)]
     if early:
-        return shown._replace(value=None, diagnostics=(*shown.diagnostics, *early))
-    passes = passes_of(BESIDE_SHOW, setting._replace(show=shown.value))
-    filmed = run_refined(passes, beside(shown.value), ctx, setting.seat, options.stop_after)
-    diagnostics = (*shown.diagnostics, *filmed.diagnostics)
-    return filmed._replace(diagnostics=diagnostics, reports=(*shown.reports, *filmed.reports))
+        return lowered_show._replace(value=None, diagnostics=(*lowered_show.diagnostics, *early))
+    passes = passes_of(BESIDE_SHOW, setting._replace(show=lowered_show.value))
+    filmed = run_refined(passes, beside(lowered_show.value), ctx, setting.seat, options.stop_after)
+    diagnostics = (*lowered_show.diagnostics, *filmed.diagnostics)
+    return filmed._replace(diagnostics=diagnostics, reports=(*lowered_show.reports, *filmed.reports))
 
 
 def _lower_show(

@@ -75,8 +75,8 @@ class EmitterPool:
         for work in busy:
             with suppress(OSError):  # a dead worker is noticed by its missing result
                 work.plan.send((plan, names))
-        away = {name for work in busy for name in work.names}
-        made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in away}
+        forked = {name for work in busy for name in work.names}
+        made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in forked}
         for work in busy:
             with suppress(Exception):  # without a worker's result this process makes the files, or fails
                 made |= work.made.result()

@@ -110,9 +110,9 @@ def write(
         return [], (_cannot_write(folder, fault),)
     finally:
         _forget(staged)
-        for made in missing:
+        for new_folder in missing:
             with suppress(OSError):  # not empty: it has our files, or others
-                made.rmdir()
+                new_folder.rmdir()
     return [file.place for file in staged], ()
 
 
@@ -137,13 +137,13 @@ def _put_in_place(staged: Sequence[_Staged]) -> None:
     for file in staged:
         if file.place.exists():
             _keep(file.place, file.backup)
-    done: list[_Staged] = []
+    placed: list[_Staged] = []
     try:
         for file in staged:
             file.temporary.replace(file.place)
-            done.append(file)
+            placed.append(file)
     except OSError:
-        for file in done:
+        for file in placed:
             if file.backup.exists():
                 file.backup.replace(file.place)
             else:

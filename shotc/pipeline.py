@@ -163,13 +163,13 @@ def run_refined(
     from shotc.passes.refine_path import blame, needed, shortest_refined, still_true
     from shotc.passes.solve_path_qp import SolvePathQp
 
-    done = run(passes, value, ctx, stop_after)
-    k = next((i for i, report in enumerate(done.reports) if report.name == "refine-path"), 0)
-    outputs: list[Any] = [report.output for report in done.reports]
+    lowered = run(passes, value, ctx, stop_after)
+    k = next((i for i, report in enumerate(lowered.reports) if report.name == "refine-path"), 0)
+    outputs: list[Any] = [report.output for report in lowered.reports]
     if not k:
-        return done
+        return lowered
     if outputs[k] is None:
-        return _with_convex(done, passes[k + 1 :], outputs[k - 1], ctx)
+        return _with_convex(lowered, passes[k + 1 :], outputs[k - 1], ctx)
     convex, refined = outputs[k - 1], outputs[k]
     longer, solve = needed(refined), passes[k - 1]
     if longer and isinstance(solve, SolvePathQp) and not solve.durations:
@@ -177,21 +177,21 @@ def run_refined(
         again = run_refined(slower, value, ctx, seat, stop_after)
         if not has_errors(again.diagnostics):
             return again
-    late = tuple(d for report in done.reports[k + 1 :] for d in report.diagnostics)
+    late = tuple(d for report in lowered.reports[k + 1 :] for d in report.diagnostics)
     if not has_errors(late):
-        true = done._replace(diagnostics=still_true((convex, refined), done.diagnostics))
+        true = lowered._replace(diagnostics=still_true((convex, refined), lowered.diagnostics))
         return _accounted(true, seat, (convex, refined))
     if refined is convex:
-        return done
+        return lowered
     again = run(passes[k + 1 :], convex, ctx, stop_after)
     if has_errors(again.diagnostics):
-        return done._replace(diagnostics=shortest_refined(seat, done.diagnostics, again.diagnostics))
+        return lowered._replace(diagnostics=shortest_refined(seat, lowered.diagnostics, again.diagnostics))
     verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
-    early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
+    early = tuple(d for report in lowered.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:
-        return PipelineRun(None, (*early, *verdict.diagnostics), done.reports)
+        return PipelineRun(None, (*early, *verdict.diagnostics), lowered.reports)
     diagnostics = (*early, *verdict.diagnostics, *again.diagnostics)
-    flown = PipelineRun(again.value, diagnostics, (*done.reports[: k + 1], *again.reports))
+    flown = PipelineRun(again.value, diagnostics, (*lowered.reports[: k + 1], *again.reports))
     return _accounted(flown, seat, (convex, convex))
 
 

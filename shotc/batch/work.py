@@ -65,15 +65,15 @@ class Planned(NamedTuple):
 
 def planned(job: Job) -> Planned:
     """Return the plan's files of a job's mission, or the errors."""
-    done = compile_source(job.data, job.name, job.folder, job.options)
-    if done.plan is None:
-        outcome = _outcome(job, done.mission, None, done.diagnostics)
-        return Planned(outcome, (), done.diagnostics, done.sources)
-    emitted = emit_plan(done.plan, job.emitters)
-    diagnostics = (*done.diagnostics, *emitted.diagnostics)
-    outcome = _outcome(job, done.mission, done.plan, diagnostics)
-    source = done.plan.trajectory.keyframes.mission.source
-    return Planned(outcome, emitted.artifacts, diagnostics, done.sources, tuple(_read(source)))
+    compilation = compile_source(job.data, job.name, job.folder, job.options)
+    if compilation.plan is None:
+        outcome = _outcome(job, compilation.mission, None, compilation.diagnostics)
+        return Planned(outcome, (), compilation.diagnostics, compilation.sources)
+    emitted = emit_plan(compilation.plan, job.emitters)
+    diagnostics = (*compilation.diagnostics, *emitted.diagnostics)
+    outcome = _outcome(job, compilation.mission, compilation.plan, diagnostics)
+    source = compilation.plan.trajectory.keyframes.mission.source
+    return Planned(outcome, emitted.artifacts, diagnostics, compilation.sources, tuple(_read(source)))
 
 
 def _outcome(

@@ -93,17 +93,17 @@ def compare(
 
     refiner_names = ordered(plugins.names("refiners")) if names is None else names
     with Progress() as progress:
-        done = compare_source(
+        report = compare_source(
             source.data, source.name, source.folder, Options(refiner_names, smoothings, deadline, progress)
         )
-        comparison = _shown(done)
+        comparison = _shown(report)
         from shotc.comparison.outputs import artifacts
 
         emission = artifacts(comparison, progress)
     paths, faults = write(
         emission.artifacts, output or Path("out") / file_name(comparison.mission.name) / "compare"
     )
-    console.report((*done.diagnostics, *emission.diagnostics, *faults), done.sources)
+    console.report((*report.diagnostics, *emission.diagnostics, *faults), report.sources)
     console.out(_printed(comparison, format, paths))
     raise typer.Exit(console.exit_code(faults))
 

@@ -74,18 +74,23 @@ def identify(
     seat = _seat(saliency) if guess else None
     guesser = None if seat is None else Guesser(seat.plugin, seat.package)
     of, to = TextLocation(source.name, source.folder), TextLocation(place.as_posix(), place.parent)
-    done = identify_source(source.data, of, to, guesser)
-    if done.text is None:
-        console.report(done.diagnostics, done.sources)
+    identification = identify_source(source.data, of, to, guesser)
+    if identification.text is None:
+        console.report(identification.diagnostics, identification.sources)
         console.complain("nothing is written")
         raise typer.Exit(console.EXIT_REJECTED)
-    rows = [SheetRow(t.name, t.cylinder, dict(zip(t.tasks, t.shares, strict=True))) for t in done.targets]
-    picture = draw_sheet(done.title, done.tasks, done.pictures, rows)
-    _, faults = write([Artifact(place.name, done.text), Artifact(sheet.name, picture)], place.parent)
-    console.report([*done.diagnostics, *faults], done.sources)
+    rows = [
+        SheetRow(t.name, t.cylinder, dict(zip(t.tasks, t.shares, strict=True)))
+        for t in identification.targets
+    ]
+    picture = draw_sheet(identification.title, identification.tasks, identification.pictures, rows)
+    _, faults = write(
+        [Artifact(place.name, identification.text), Artifact(sheet.name, picture)], place.parent
+    )
+    console.report([*identification.diagnostics, *faults], identification.sources)
     if faults:
         raise typer.Exit(console.exit_code(faults))
-    console.out("\n".join(table(_rows(done))))
+    console.out("\n".join(table(_rows(identification))))
     console.out(f"wrote {place} and {sheet}")
     console.note(f"next: look at {sheet}, then shotc plan {place}")
 
@@ -105,11 +110,11 @@ def _seat(name: str) -> plugins.Source:
     return source
 
 
-def _rows(done: Identification) -> list[tuple[str, ...]]:
+def _rows(identification: Identification) -> list[tuple[str, ...]]:
     """Return the table of the targets that were found, one row per target."""
     rows: list[tuple[str, ...]] = [("target", "where", "sure", "keyframes")]
-    for target in done.targets:
+    for target in identification.targets:
         shares = ", ".join(f"{100 * share:.0f} %" for share in target.shares)
-        where = "; ".join(done.tasks[i].label for i in target.tasks)
+        where = "; ".join(identification.tasks[i].label for i in target.tasks)
         rows.append((target.name, target.cylinder.described, shares, where))
     return rows

@@ -149,54 +149,54 @@ def plan(
             hands.prepare(mission.emit if emitters is None else emitters)
 
         options = PlanOptions(refiner, deadline, autopilot, stop, seed, progress, start, headings)
-        done = with_missing(compile_source(source.data, source.name, source.folder, options), refiner)
+        compilation = with_missing(compile_source(source.data, source.name, source.folder, options), refiner)
         if dump_ir is not None:
-            _dump(done, dump_ir)
+            _dump(compilation, dump_ir)
         if options.stop_after is None:
             progress("emit")
-            code = _finish(done, emitters, output, hands, progress)
+            code = _finish(compilation, emitters, output, hands, progress)
         else:
-            console.report(done.diagnostics, done.sources)
-            code = console.exit_code(done.diagnostics)
+            console.report(compilation.diagnostics, compilation.sources)
+            code = console.exit_code(compilation.diagnostics)
     if time_passes:
-        _print_times(done)
+        _print_times(compilation)
     raise typer.Exit(code)
 
 
 def _finish(
-    done: Compilation,
+    compilation: Compilation,
     emitters: list[str] | None,
     output: Path | None,
     hands: EmitterPool,
     progress: Callable[[str], None],
 ) -> int:
     """Emit and write a plan, report all diagnostics, and return the exit status."""
-    folder = output or Path("out") / (file_name(done.mission) if done.mission else "")
-    if done.plan is None:
-        console.report(done.diagnostics, done.sources)
+    folder = output or Path("out") / (file_name(compilation.mission) if compilation.mission else "")
+    if compilation.plan is None:
+        console.report(compilation.diagnostics, compilation.sources)
         warn_of_earlier(folder)
-        return console.exit_code(done.diagnostics)
+        return console.exit_code(compilation.diagnostics)
     from shotc.cli.summary import summary
 
-    emitted = emit_plan(done.plan, emitters, hands)
-    diagnostics = (*done.diagnostics, *emitted.diagnostics)
+    emitted = emit_plan(compilation.plan, emitters, hands)
+    diagnostics = (*compilation.diagnostics, *emitted.diagnostics)
     paths, faults = write(emitted.artifacts, folder, progress)
     diagnostics += faults
-    console.report(diagnostics, done.sources)
+    console.report(diagnostics, compilation.sources)
     if paths:
-        console.out(summary(done.plan, paths, emitted.notes))
+        console.out(summary(compilation.plan, paths, emitted.notes))
         print_left_over(folder, {path.name for path in paths})
     else:
         warn_of_earlier(folder)
     return console.exit_code(diagnostics)
 
 
-def _dump(done: Compilation, name: str) -> None:
-    for report in done.reports:
+def _dump(compilation: Compilation, name: str) -> None:
+    for report in compilation.reports:
         if report.name == name and report.output is not None:
             console.out(dump(report.output))
 
 
-def _print_times(done: Compilation) -> None:
-    for report in done.reports:
+def _print_times(compilation: Compilation) -> None:
+    for report in compilation.reports:
         console.note(f"{report.seconds:8.3f} s  {report.name}")

@@ -7,10 +7,14 @@ from shotc.api import Compilation
 from shotc.diag.model import Diagnostic
 
 
-def with_missing(done: Compilation, refiner: str | None) -> Compilation:
+def with_missing(compilation: Compilation, refiner: str | None) -> Compilation:
     """Add the diagnostic of a missing refiner if the path could have been refined and no name was given."""
-    reached = any(report.name == "refine-path" for report in done.reports)
-    return done._replace(diagnostics=(*done.diagnostics, *missing(refiner))) if reached else done
+    reached = any(report.name == "refine-path" for report in compilation.reports)
+    return (
+        compilation._replace(diagnostics=(*compilation.diagnostics, *missing(refiner)))
+        if reached
+        else compilation
+    )
 
 
 def missing(refiner: str | None) -> tuple[Diagnostic, ...]:

@@ -159,11 +159,11 @@ def simulate(
             loop, seeds, wind, from_, gusts, gps, bias, lost_spans, wander, real, seed, replanner, vehicle
         )
         conditions = _conditions(proved, options, workers)
-        done, unfinished = _flown(proved, options, conditions, workers or jobs or cores(), progress)
-        emission = artifacts(done, proved.plan, progress)
+        rehearsed, unfinished = _flown(proved, options, conditions, workers or jobs or cores(), progress)
+        emission = artifacts(rehearsed, proved.plan, progress)
     paths, faults = write(emission.artifacts, proved.folder)
     unfinished.file.forget()
-    _report(done, (*emission.diagnostics, *faults), proved.sources, paths, format)
+    _report(rehearsed, (*emission.diagnostics, *faults), proved.sources, paths, format)
 
 
 class _Proved(NamedTuple):
@@ -186,11 +186,14 @@ def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> 
         diagnostics, sources = report.diagnostics, report.sources
     else:
         text = read_mission(source)
-        done = with_missing(
+        compilation = with_missing(
             compile_source(text.data, text.name, text.folder, PlanOptions(progress=progress)), None
         )
-        plan, beside = done.plan, Path("out") / (file_name(done.mission) if done.mission else "")
-        diagnostics, sources = done.diagnostics, done.sources
+        plan, beside = (
+            compilation.plan,
+            Path("out") / (file_name(compilation.mission) if compilation.mission else ""),
+        )
+        diagnostics, sources = compilation.diagnostics, compilation.sources
     if plan is None:
         console.report(diagnostics, sources)
         raise typer.Exit(console.EXIT_REJECTED)
@@ -242,8 +245,8 @@ def _flown(
     earlier = unfinished.done()
     blocks = unfinished.keeping(simulated(trajectory, conditions, count, processes, earlier), earlier)
     with at_work():
-        done = rehearse(trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
-    return done, unfinished
+        rehearsed = rehearse(trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
+    return rehearsed, unfinished
 
 
 def _report(

@@ -60,11 +60,11 @@ def _planned(spec: str) -> VerifiedIR:
     """Return the plan of a mission. If there is none, report why and exit."""
     source = read_mission(spec)
     options = PlanOptions(progress=console.note)
-    done = with_missing(compile_source(source.data, source.name, source.folder, options), None)
-    console.report(done.diagnostics, done.sources)
-    if done.plan is None:
+    compilation = with_missing(compile_source(source.data, source.name, source.folder, options), None)
+    console.report(compilation.diagnostics, compilation.sources)
+    if compilation.plan is None:
         raise typer.Exit(console.EXIT_REJECTED)
-    return done.plan
+    return compilation.plan
 
 
 def _show(path: Path) -> int:

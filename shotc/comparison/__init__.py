@@ -67,17 +67,17 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
         convex = PlanOptions(
             plugins.NO_REFINER, stop_after="solve-path-qp", progress=options.progress, smoothing=smoothing
         )
-        done = compile_source(data, name, folder, convex)
-        path = done.reports[-1].output if done.reports else None
-        if not isinstance(path, PathIR) or has_errors(done.diagnostics):
-            return Report(None, done.diagnostics, done.sources)
+        compilation = compile_source(data, name, folder, convex)
+        path = compilation.reports[-1].output if compilation.reports else None
+        if not isinstance(path, PathIR) or has_errors(compilation.diagnostics):
+            return Report(None, compilation.diagnostics, compilation.sources)
         path = _without_show(path)
-        first = first or (path, done)
+        first = first or (path, compilation)
         conditions += (_under(refiner, path, smoothing, options) for refiner in options.refiners)
     assert first is not None
-    path, done = first
+    path, compilation = first
     comparison = Comparison(path.keyframes.mission, tuple(conditions), differences(conditions))
-    return Report(comparison, done.diagnostics, done.sources)
+    return Report(comparison, compilation.diagnostics, compilation.sources)
 
 
 def _without_show(path: PathIR) -> PathIR:

@@ -34,17 +34,17 @@ def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext)
     seat = Seat(source.plugin, source.package, source.reference)
     # Keeping the path takes no time; a deadline would start a process to watch it.
     limit = None if name == plugins.NO_REFINER else deadline
-    done = run((RefinePath(seat, limit), ParameterizeTime()), path, ctx)
-    seconds = done.reports[0].seconds
-    if done.value is None or has_errors(done.diagnostics):
-        return Condition(name, source.package, None, _errors(done.diagnostics), seconds=seconds)
-    plan, faults = _proved(done.value, ctx)
+    lowered = run((RefinePath(seat, limit), ParameterizeTime()), path, ctx)
+    seconds = lowered.reports[0].seconds
+    if lowered.value is None or has_errors(lowered.diagnostics):
+        return Condition(name, source.package, None, _errors(lowered.diagnostics), seconds=seconds)
+    plan, faults = _proved(lowered.value, ctx)
     broken = tuple(d for d in faults if d.code in PROMISES)
     if plan is None:
         refused = tuple(d for d in faults if d.code not in PROMISES)
         return Condition(name, source.package, None, refused, broken, seconds=seconds)
     shots = flown_shots(plan)
-    convex = tuple(d for d in done.diagnostics if d.code == KEPT_CONVEX)
+    convex = tuple(d for d in lowered.diagnostics if d.code == KEPT_CONVEX)
     return Condition(name, source.package, plan, (), broken, convex, shots, total(plan, shots), seconds)
 
 

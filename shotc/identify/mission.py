@@ -107,8 +107,8 @@ def identify_source(
     faults = [*empty(mission, result, searches), *swallowed(mission, result, searches)]
     if faults:
         return stopped._replace(diagnostics=tuple(faults))
-    done = stopped._replace(tasks=searches, pictures=pictures)
-    return _written(done, mission, result, (data, to))
+    identification = stopped._replace(tasks=searches, pictures=pictures)
+    return _written(identification, mission, result, (data, to))
 
 
 def _with_boxes(
@@ -128,7 +128,7 @@ def _with_boxes(
 
 
 def _written(
-    done: Identification, mission: MissionIR, result: SearchResult, text: tuple[bytes, TextLocation]
+    identification: Identification, mission: MissionIR, result: SearchResult, text: tuple[bytes, TextLocation]
 ) -> Identification:
     """Return the mission with the found targets, if it passes the checks."""
     data, to = text
@@ -137,28 +137,28 @@ def _written(
     called = {i: name for name, target in zip(names, result.targets, strict=True) for i in target.glances}
     named = [
         Named(task.keyframe.path, called[i], task.box if task.guessed else None)
-        for i, task in enumerate(done.tasks)
+        for i, task in enumerate(identification.tasks)
     ]
-    doubtful = tuple(doubts(mission, result, done.tasks, names))
+    doubtful = tuple(doubts(mission, result, identification.tasks, names))
     try:
-        made = rewritten(data, mission.origins.file, cylinders, named)
+        new_text = rewritten(data, mission.origins.file, cylinders, named)
     except NotEditable as layout:
         label = mission.origins.value(layout.path)
         help_ = "write it out where it stands, without an anchor or alias"
         fault = Diagnostic(
             "N017", "no key can be added to what is written elsewhere, too", (label,), help=help_
         )
-        return done._replace(diagnostics=(fault,))
-    checked = check_source(made, to.name, to.folder)
-    sources = {**done.sources, **checked.sources}
+        return identification._replace(diagnostics=(fault,))
+    checked = check_source(new_text, to.name, to.folder)
+    sources = {**identification.sources, **checked.sources}
     if has_errors(checked.diagnostics):
         errors = tuple(d for d in checked.diagnostics if has_errors([d]))
-        return done._replace(diagnostics=errors, sources=sources)
+        return identification._replace(diagnostics=errors, sources=sources)
     targets = tuple(
         Identified(name, target.cylinder, target.glances, tuple(_share(result, i) for i in target.glances))
         for name, target in zip(names, result.targets, strict=True)
     )
-    return done._replace(text=made, targets=targets, diagnostics=doubtful, sources=sources)
+    return identification._replace(text=new_text, targets=targets, diagnostics=doubtful, sources=sources)
 
 
 def _share(result: SearchResult, number: int) -> float:

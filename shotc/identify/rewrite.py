@@ -56,9 +56,9 @@ def rewritten(data: bytes, name: str, targets: Mapping[str, Upright], named: Seq
     edits = [*text.added(TARGETS, entries)] if entries else []
     for keyframe in named:
         edits += text.given(keyframe.path, _keys(keyframe))
-    made = _applied(document.file.text, edits)
+    new_text = _applied(document.file.text, edits)
     mark = b"\xef\xbb\xbf" if data.startswith(b"\xef\xbb\xbf") else b""
-    result = mark + made.encode()
+    result = mark + new_text.encode()
     _compare(document, parse(result, name), targets, named)
     return result
 

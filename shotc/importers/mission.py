@@ -70,11 +70,13 @@ def _import_cameras(format: str, data: bytes, name: str, options: ImportOptions,
         text, footage = _footage(format, data, name, options, notes)
     sources = {name: SourceFile(name, text)}
     if isinstance(footage, ImportedTakes):
-        made = written(PurePath(name).stem, WHAT[format], footage, options, notes)
-        if made is not None:
+        mission_text = written(PurePath(name).stem, WHAT[format], footage, options, notes)
+        if mission_text is not None:
             said = assumption_diagnostics(name, notes, strict=strict)
-            result = None if has_errors(said) else made.text
-            return Imported(result, said, sources, 1, made.shots, made.keyframes, made.cameras)
+            result = None if has_errors(said) else mission_text.text
+            return Imported(
+                result, said, sources, 1, mission_text.shots, mission_text.keyframes, mission_text.cameras
+            )
         message = "it holds no take of two cameras or more, and a shot needs two"
         footage = Refused("I003", message, footage.node, "add a second camera, and import it again")
     message = f"`{name}` cannot be imported: {footage.message}"

@@ -129,8 +129,8 @@ def led_round(
         return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
     unseen = times[covered > 0.0]
-    away = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
-    return VisiblePath(ideal + np.column_stack(between), np.clip(2.0 - away / SPREAD_S, 0.0, 1.0))
+    delays = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
+    return VisiblePath(ideal + np.column_stack(between), np.clip(2.0 - delays / SPREAD_S, 0.0, 1.0))
 
 
 def _stride(times: Array) -> int:

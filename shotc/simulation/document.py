@@ -24,21 +24,21 @@ FLIGHT = (
 )
 
 
-def json_text(done: Rehearsed) -> str:
+def json_text(rehearsed: Rehearsed) -> str:
     """Return the document; the same rehearsal gives the same text on any number of processes."""
-    mission = done.mission
+    mission = rehearsed.mission
     document = {
         "tool": {"name": "shotc", "version": __version__},
         "mission": mission.name,
         "mission_sha256": mission.source_sha256,
-        "conditions": asdict(done.conditions),
-        "asked": done.promise._asdict(),
-        "runs_that_hold": done.held,
-        "runs_needed": done.needed,
-        "kept": done.kept,
-        "verdicts": [asdict(each) for each in done.verdicts],
-        "worst_run": done.worst.number,
-        "runs": [asdict(run) for run in done.runs],
+        "conditions": asdict(rehearsed.conditions),
+        "asked": rehearsed.promise._asdict(),
+        "runs_that_hold": rehearsed.held,
+        "runs_needed": rehearsed.needed,
+        "kept": rehearsed.kept,
+        "verdicts": [asdict(each) for each in rehearsed.verdicts],
+        "worst_run": rehearsed.worst.number,
+        "runs": [asdict(run) for run in rehearsed.runs],
     }
     return json.dumps(_finite(document), indent=2) + "\n"
 
@@ -54,21 +54,23 @@ def _finite(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not isfinite(value) else value
 
 
-def flight_table(done: Rehearsed, world: World, flown: Sequence[DroneRuns]) -> str:
+def flight_table(rehearsed: Rehearsed, world: World, flown: Sequence[DroneRuns]) -> str:
     """Return flight.csv of the first run of a world at the ticks of the output clock, by drone, then by time.
 
     A drone that follows several targets has a row for each; a drone that follows none has one row.
     """
     rows = [
         row
-        for track, each in sorted(zip(done.ir.drones, flown, strict=True), key=lambda pair: pair[0].drone)
-        for row in _rows(done, world, each, clock(done.mission.rate, track.curve.end))
+        for track, each in sorted(
+            zip(rehearsed.ir.drones, flown, strict=True), key=lambda pair: pair[0].drone
+        )
+        for row in _rows(rehearsed, world, each, clock(rehearsed.mission.rate, track.curve.end))
     ]
     return "\n".join([FLIGHT, *rows, ""])
 
 
-def _rows(done: Rehearsed, world: World, flown: DroneRuns, times: Any) -> Iterator[str]:
-    track = next(t for t in done.ir.drones if t.drone == flown.drone)
+def _rows(rehearsed: Rehearsed, world: World, flown: DroneRuns, times: Any) -> Iterator[str]:
+    track = next(t for t in rehearsed.ir.drones if t.drone == flown.drone)
     angles = np.stack([np.unwrap(flown.yaw[:, 0]), flown.pitch[:, 0], flown.roll[:, 0]], axis=1)
     own = np.concatenate(
         [at_times(rows, flown.times, times) for rows in (flown.position[:, 0], flown.velocity[:, 0], angles)]

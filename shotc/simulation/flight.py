@@ -82,14 +82,14 @@ def _one_after_another(
     world: World, tracks: Sequence[DroneTrajectory], by: Replanner | None
 ) -> tuple[DroneRuns, ...]:
     ranks = {track.drone: (world.mission.drone(track.drone).priority, track.drone) for track in tracks}
-    done: dict[str, DroneRuns] = {}
+    flown: dict[str, DroneRuns] = {}
     sent: tuple[Sent, ...] = ()
     for track in sorted(tracks, key=lambda track: ranks[track.drone]):
         film = film_of(world.mission, track)
         own = Sent(film, PERIOD_S)
-        done[track.drone] = fly(world, film, by, sent, own)
+        flown[track.drone] = fly(world, film, by, sent, own)
         sent = (*sent, own)
-    return tuple(done[track.drone] for track in tracks)
+    return tuple(flown[track.drone] for track in tracks)
 
 
 def fly(

@@ -157,10 +157,10 @@ class PictureFix:
         spread = rows @ estimate.covariance @ np.swapaxes(rows, 1, 2) + noise
         off = np.einsum("ri,rij,rj->r", miss, np.linalg.inv(spread), miss)
         right = off <= GATE_CHI2
-        done = _updated(estimate, (miss, rows, noise), known & right)
+        updated = _updated(estimate, (miss, rows, noise), known & right)
         # A model whose detections are always rejected has the likelihood of a detection at the gate.
         rest = -0.5 * (GATE_CHI2 + np.linalg.slogdet(spread)[1])
-        return Taken(done.estimate, np.where(known & ~right, rest, done.fit))
+        return Taken(updated.estimate, np.where(known & ~right, rest, updated.fit))
 
 
 def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:

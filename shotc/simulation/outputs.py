@@ -17,7 +17,7 @@ from shotc.simulation.runs import flown
 from shotc.simulation.summary import summary
 
 
-def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]) -> Emission:
+def artifacts(rehearsed: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]) -> Emission:
     """Return the report, simulate.json and simulate.png; for missions with cameras also flight.csv and
     simulate.rrd.
 
@@ -26,25 +26,25 @@ def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]
 
     plan : the simulated plan
     """
-    described = summary(done)
+    described = summary(rehearsed)
     files = [
-        Artifact("simulate.json", json_text(done).encode("ascii")),
+        Artifact("simulate.json", json_text(rehearsed).encode("ascii")),
         report(
             plan, Simulated(described.flown, described.tables, (*described.requirements, *described.notes))
         ),
     ]
-    if not done.ir.drones:
-        return Emission((*files, Artifact("simulate.png", draw(done))))
+    if not rehearsed.ir.drones:
+        return Emission((*files, Artifact("simulate.png", draw(rehearsed))))
     progress("flying the worst run again")
-    world, worst = flown(done.ir, done.conditions, [done.worst.number])
-    files.append(Artifact("flight.csv", flight_table(done, world, worst).encode()))
+    world, worst = flown(rehearsed.ir, rehearsed.conditions, [rehearsed.worst.number])
+    files.append(Artifact("flight.csv", flight_table(rehearsed, world, worst).encode()))
     progress("drawing simulate.png")
-    files.append(Artifact("simulate.png", draw(done)))
+    files.append(Artifact("simulate.png", draw(rehearsed)))
     if find_spec("rerun") is None:
         missing = plugins.not_installed("P005", "output `simulate.rrd`", ["rerun"])
         return Emission(tuple(files), (missing,))
     from shotc.simulation.recording import recording
 
     progress("recording simulate.rrd")
-    files.append(Artifact("simulate.rrd", recording(done, world, worst)))
+    files.append(Artifact("simulate.rrd", recording(rehearsed, world, worst)))
     return Emission(tuple(files))

@@ -40,35 +40,37 @@ class _Panel(NamedTuple):
     most: float = inf
 
 
-def draw(done: Rehearsed) -> bytes:
+def draw(rehearsed: Rehearsed) -> bytes:
     """Return the page as PNG; the same rehearsal gives the same bytes."""
-    panels = _panels(done)
-    rows = (len(panels) + 1) // 2 + (done.strays is not None)
+    panels = _panels(rehearsed)
+    rows = (len(panels) + 1) // 2 + (rehearsed.strays is not None)
     height = HEAD_IN + PANEL_IN * rows
     figure = Figure(figsize=(WIDTH_IN, height), dpi=DPI, facecolor=PAPER)
     top, bottom = 1 - 0.75 / height, 0.5 / height
     grid = figure.add_gridspec(
         rows, 2, hspace=0.65, wspace=0.2, left=0.07, right=0.97, top=top, bottom=bottom
     )
-    figure.suptitle(_title(done), x=0.07, y=1 - 0.2 / height, ha="left", va="top", color=INK, fontsize=12)
+    figure.suptitle(
+        _title(rehearsed), x=0.07, y=1 - 0.2 / height, ha="left", va="top", color=INK, fontsize=12
+    )
     for i, panel in enumerate(panels):
-        _spread(figure.add_subplot(grid[i // 2, i % 2]), done, panel)
-    if done.strays is not None:
-        _timeline(figure.add_subplot(grid[rows - 1, :]), done, done.strays)
+        _spread(figure.add_subplot(grid[i // 2, i % 2]), rehearsed, panel)
+    if rehearsed.strays is not None:
+        _timeline(figure.add_subplot(grid[rows - 1, :]), rehearsed, rehearsed.strays)
     into = BytesIO()
     figure.savefig(into, format="png", metadata={"Software": None})
     return into.getvalue()
 
 
-def _title(done: Rehearsed) -> str:
-    count = len(done.runs)
+def _title(rehearsed: Rehearsed) -> str:
+    count = len(rehearsed.runs)
     if count == 1:
-        return f"{done.mission.name}: 1 run"
-    return f"{done.mission.name}: {count} runs, worst is run {done.worst.number}"
+        return f"{rehearsed.mission.name}: 1 run"
+    return f"{rehearsed.mission.name}: {count} runs, worst is run {rehearsed.worst.number}"
 
 
-def _panels(done: Rehearsed) -> list[_Panel]:
-    promise = done.promise
+def _panels(rehearsed: Rehearsed) -> list[_Panel]:
+    promise = rehearsed.promise
     least, sight = (None if p is None else 100 * p for p in (promise.in_frame, promise.in_sight))
     clear = 0.0 if promise.clearance is None else promise.clearance
     pictures = [
@@ -83,15 +85,15 @@ def _panels(done: Rehearsed) -> list[_Panel]:
         title = "Target in sight, worst shot"
         pictures.append(_Panel(title, "% of instants", lambda run: 100 * run.in_sight, sight, 100.0))
     return [
-        *(pictures if done.runs[0].pictures else ()),
+        *(pictures if rehearsed.runs[0].pictures else ()),
         _Panel("Least distance of a body from anything", "m", lambda run: run.clearance, clear),
         _Panel("Farthest from the plan", "m", lambda run: run.stray, promise.stray),
     ]
 
 
-def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
+def _spread(axes: Any, rehearsed: Rehearsed, panel: _Panel) -> None:
     """Draw every run as a tick with their histogram, the worst run in amber, the requirement in vermilion."""
-    every = np.array([panel.measure(run) for run in done.runs])
+    every = np.array([panel.measure(run) for run in rehearsed.runs])
     values = every[np.isfinite(every)]
     left_out = len(every) - len(values)
     if len(values):
@@ -104,14 +106,14 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
         axes.plot(values, np.zeros(len(values)), "|", color=INK, markersize=8, clip_on=False)
         axes.set_ylim(0.0, HEADROOM_RATIO * float(drawn.max()))
         axes.set_xlim(right=min(axes.get_xlim()[1], panel.most))
-    worst = panel.measure(done.worst)
+    worst = panel.measure(rehearsed.worst)
     if isfinite(worst):
         axes.axvline(
             worst,
             ymax=1 / HEADROOM_RATIO,
             color=CAMERA,
             linewidth=2.0,
-            label=f"run {done.worst.number}, the worst",
+            label=f"run {rehearsed.worst.number}, the worst",
         )
     if panel.limit is not None:
         axes.axvline(
@@ -125,20 +127,20 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
     _labels(axes, f"{panel.title}{beyond}", panel.unit, "runs")
 
 
-def _timeline(axes: Any, done: Rehearsed, strays: Strays) -> None:
+def _timeline(axes: Any, rehearsed: Rehearsed, strays: Strays) -> None:
     median, largest = np.median(strays.metres, axis=1), strays.metres.max(axis=1)
     top = float(largest.max())
     label = "largest of the runs"
     axes.fill_between(strays.times, 0.0, largest, color=SUBJECT, alpha=0.25, linewidth=0, label=label)
     axes.plot(strays.times, median, color=SUBJECT, linewidth=1.2, label="median")
-    for row, track in enumerate(done.ir.drones):
+    for row, track in enumerate(rehearsed.ir.drones):
         for phase in track.phases:
             if phase.shot is not None:
                 axes.axvspan(phase.start, phase.end, color=CAMERA, alpha=0.12, linewidth=0)
                 height = top * (1.03 + 0.12 * row)
                 axes.text(phase.start, height, f" {phase.shot}", fontsize=9, color=QUIET, va="bottom")
     axes.set_xlim(0.0, float(strays.times[-1]))
-    axes.set_ylim(0.0, top * (1.15 + 0.12 * len(done.ir.drones)))
+    axes.set_ylim(0.0, top * (1.15 + 0.12 * len(rehearsed.ir.drones)))
     axes.legend(loc="upper right", fontsize=9, frameon=False, labelcolor=QUIET)
     _labels(axes, "Distance from the plan over the flight (shots in amber)", "s", "m")
 

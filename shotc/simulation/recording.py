@@ -18,16 +18,16 @@ KNOT_S = 0.2
 """Seconds between the knots of a flight's curve."""
 
 
-def recording(done: Rehearsed, world: World, flown: tuple[DroneRuns, ...]) -> bytes:
+def recording(rehearsed: Rehearsed, world: World, flown: tuple[DroneRuns, ...]) -> bytes:
     """Return the recording of the first run of a world."""
-    drones = tuple(_drawn(track, each) for track, each in zip(done.ir.drones, flown, strict=True))
+    drones = tuple(_drawn(track, each) for track, each in zip(rehearsed.ir.drones, flown, strict=True))
     known = tuple(
         Ellipses(each.drone, of.target, each.times, of.place[:, 0], of.covariance[:, 0])
         for each in flown
         for of in each.estimated
     )
-    plan = VerifiedIR(done.ir, ())
-    return record_flown(plan, VerifiedIR(_as_plan(done.ir, world, drones), ()), known)
+    plan = VerifiedIR(rehearsed.ir, ())
+    return record_flown(plan, VerifiedIR(_as_plan(rehearsed.ir, world, drones), ()), known)
 
 
 def _as_plan(ir: TrajectoryIR, world: World, drones: tuple[DroneTrajectory, ...]) -> TrajectoryIR:

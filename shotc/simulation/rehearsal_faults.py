@@ -46,42 +46,42 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
         yield from _untrue(mission, name, track, end)
 
 
-def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:
+def not_kept(rehearsed: Rehearsed) -> Iterator[Diagnostic]:
     """Yield the requirements that too few runs keep."""
-    if done.kept:
+    if rehearsed.kept:
         return
-    failing = [each for each in done.verdicts if each.held < done.needed]
+    failing = [each for each in rehearsed.verdicts if each.held < rehearsed.needed]
     for each in failing:
-        yield _touches(done, each) if not each.written else _broken(done, each)
+        yield _touches(rehearsed, each) if not each.written else _broken(rehearsed, each)
     if not failing:
-        mission, total = done.mission, len(done.runs)
+        mission, total = rehearsed.mission, len(rehearsed.runs)
         yield Diagnostic(
             "W001",
-            f"{done.held} of {total} runs keep all that is required; {done.needed} have to",
+            f"{rehearsed.held} of {total} runs keep all that is required; {rehearsed.needed} have to",
             (mission.origins.value(_require(mission)),),
-            tuple(f"`{each.key}` holds in {each.held}" for each in done.verdicts),
+            tuple(f"`{each.key}` holds in {each.held}" for each in rehearsed.verdicts),
             "ask for less, or for a smaller share of the runs with `of`",
         )
 
 
-def _broken(done: Rehearsed, each: RequirementVerdict) -> Diagnostic:
-    total = len(done.runs)
+def _broken(rehearsed: Rehearsed, each: RequirementVerdict) -> Diagnostic:
+    total = len(rehearsed.runs)
     return Diagnostic(
         "W001",
         f"{_words(each, each.worst)} in run {each.run}; {_amount(each, each.limit)} is required "
-        f"in {done.needed} of {total} runs, and {each.held} keep it",
-        (done.mission.origins.value((*_require(done.mission), each.key)),),
-        tuple(_where(done.run(each.run), each)),
-        _help(done, each),
+        f"in {rehearsed.needed} of {total} runs, and {each.held} keep it",
+        (rehearsed.mission.origins.value((*_require(rehearsed.mission), each.key)),),
+        tuple(_where(rehearsed.run(each.run), each)),
+        _help(rehearsed, each),
     )
 
 
-def _touches(done: Rehearsed, each: RequirementVerdict) -> Diagnostic:
+def _touches(rehearsed: Rehearsed, each: RequirementVerdict) -> Diagnostic:
     return Diagnostic(
         "W002",
         f"a drone's body is {at_least(-each.worst)} m into something in run {each.run}",
-        tuple(_touched(done, each)),
-        tuple(_where(done.run(each.run), each)),
+        tuple(_touched(rehearsed, each)),
+        tuple(_where(rehearsed.run(each.run), each)),
         "plan with a larger clearance, or fly in less wind",
     )
 
@@ -114,12 +114,12 @@ def _picture(run: Run, each: RequirementVerdict) -> str:
     return f"target `{worst.target}` in shot `{worst.shot}`, worst at {worst.time:.1f} s"
 
 
-def _help(done: Rehearsed, each: RequirementVerdict) -> str:
-    share = f"{done.needed} of {len(done.runs)} runs keep"
+def _help(rehearsed: Rehearsed, each: RequirementVerdict) -> str:
+    share = f"{rehearsed.needed} of {len(rehearsed.runs)} runs keep"
     if not isfinite(each.kept) or (each.unit == "share" and each.kept <= 0.0):
         return "plan for less wind, or with better receivers: in this many runs the camera looks away"
     better = ""
-    if each.key in ("in_frame", "mean_error") and done.conditions.loop == "replay":
+    if each.key in ("in_frame", "mean_error") and rehearsed.conditions.loop == "replay":
         better = "let the camera follow what it sees with `loop: track`, or "
     return f"{better}ask for what {share}: `{each.key}: {_kept(each)}`"
 
@@ -142,8 +142,8 @@ def _amount(each: RequirementVerdict, value: float) -> str:
     return f"{at_least(value) if each.upper else at_most(value)} m"
 
 
-def _touched(done: Rehearsed, each: RequirementVerdict) -> Iterator[Label]:
-    run, mission = done.run(each.run), done.mission
+def _touched(rehearsed: Rehearsed, each: RequirementVerdict) -> Iterator[Label]:
+    run, mission = rehearsed.run(each.run), rehearsed.mission
     for course in run.courses:
         if course.nearest is not None and course.nearest.distance == each.worst:
             yield mission.origins.value(mission.drone(course.drone).path)

@@ -62,28 +62,28 @@ class Summary(NamedTuple):
     notes: tuple[str, ...]
 
 
-def summary(done: Rehearsed) -> Summary:
+def summary(rehearsed: Rehearsed) -> Summary:
     """Return the summary of a rehearsal."""
-    total = len(done.runs)
-    tables = (tuple(rows) for rows in (_pictures(done), _courses(done), _fleets(done)))
+    total = len(rehearsed.runs)
+    tables = (tuple(rows) for rows in (_pictures(rehearsed), _courses(rehearsed), _fleets(rehearsed)))
     return Summary(
-        f"{total} run{'s' if total > 1 else ''}, {_conditions(done)}",
+        f"{total} run{'s' if total > 1 else ''}, {_conditions(rehearsed)}",
         tuple(rows for rows in tables if len(rows) > 1),
-        tuple(_requirement_lines(done, total)),
-        tuple(_remarks(done)),
+        tuple(_requirement_lines(rehearsed, total)),
+        tuple(_remarks(rehearsed)),
     )
 
 
-def _requirement_lines(done: Rehearsed, total: int) -> Iterator[str]:
-    for each in done.verdicts:
+def _requirement_lines(rehearsed: Rehearsed, total: int) -> Iterator[str]:
+    for each in rehearsed.verdicts:
         requirement = f"{each.key} {_limit(each)}" if each.written else "touch nothing"
         yield f"{requirement}: {each.held} of {total} runs"
-    if done.promise.of < 1.0 or len(done.verdicts) > 1:
-        yield f"all of it in {done.needed} of {total} runs: {done.held} keep it"
+    if rehearsed.promise.of < 1.0 or len(rehearsed.verdicts) > 1:
+        yield f"all of it in {rehearsed.needed} of {total} runs: {rehearsed.held} keep it"
 
 
-def _conditions(done: Rehearsed) -> str:
-    conditions = done.conditions
+def _conditions(rehearsed: Rehearsed) -> str:
+    conditions = rehearsed.conditions
     wind, gps = conditions.wind, conditions.gps
     blows = f"wind {plain(wind.speed, 1)} m/s"
     if wind.speed and wind.toward is not None:
@@ -93,7 +93,7 @@ def _conditions(done: Rehearsed) -> str:
     if not wind.speed:
         blows = "no steady wind"
     parts = [f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
-    if done.ir.drones:
+    if rehearsed.ir.drones:
         parts.insert(0, blows)
         parts.append(f"positions within {plain(gps.deviation, 2)} m{_beside(gps)}")
         parts += [_without(each) for each in conditions.outages]
@@ -114,10 +114,10 @@ def _without(outage: Outage) -> str:
     return f"{whose} from {plain(outage.start, 1)} to {plain(outage.end, 1)} s"
 
 
-def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
+def _pictures(rehearsed: Rehearsed) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = [PICTURES]
-    for i, first in enumerate(done.runs[0].pictures):
-        rows.append(_picture_row(first, [run.pictures[i] for run in done.runs]))
+    for i, first in enumerate(rehearsed.runs[0].pictures):
+        rows.append(_picture_row(first, [run.pictures[i] for run in rehearsed.runs]))
     return rows
 
 
@@ -139,10 +139,10 @@ def _size(value: float) -> str:
     return at_least(value, 3) if isfinite(value) else "behind it"
 
 
-def _courses(done: Rehearsed) -> list[tuple[str, ...]]:
+def _courses(rehearsed: Rehearsed) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = [COURSES]
-    for i, first in enumerate(done.runs[0].courses):
-        every = [(run, run.courses[i]) for run in done.runs]
+    for i, first in enumerate(rehearsed.runs[0].courses):
+        every = [(run, run.courses[i]) for run in rehearsed.runs]
         rows.append(_course_row(first, every))
     return rows
 
@@ -158,13 +158,13 @@ def _course_row(first: TrackingError, every: list[tuple[Run, TrackingError]]) ->
     return (*row, f"{at_most(nearest.distance)} m", nearest.to, as_minutes(nearest.time), str(run.number))
 
 
-def _fleets(done: Rehearsed) -> list[tuple[str, ...]]:
-    count = len(done.runs[0].fleets)
-    return [FLEETS, *(_fleet_row(done, [run.fleets[i] for run in done.runs]) for i in range(count))]
+def _fleets(rehearsed: Rehearsed) -> list[tuple[str, ...]]:
+    count = len(rehearsed.runs[0].fleets)
+    return [FLEETS, *(_fleet_row(rehearsed, [run.fleets[i] for run in rehearsed.runs]) for i in range(count))]
 
 
-def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
-    fleet = done.mission.fleet(every[0].fleet)
+def _fleet_row(rehearsed: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
+    fleet = rehearsed.mission.fleet(every[0].fleet)
     near = [each.flown.near.distance for each in every if each.flown.near is not None]
     sizes = (
         float(np.sqrt(np.mean([each.flown.rmse**2 for each in every]))),
@@ -190,40 +190,40 @@ def _limit(each: RequirementVerdict) -> str:
     return f"{plain(each.limit)}{' m' if each.unit == 'm' else ''}"
 
 
-def _remarks(done: Rehearsed) -> Iterator[str]:
+def _remarks(rehearsed: Rehearsed) -> Iterator[str]:
     """Yield remarks on shots without replanning, on failures, and on the margin of a show."""
-    yield from _planned_anew(done)
-    unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
-    if unasked and done.conditions.loop != "replay":
+    yield from _planned_anew(rehearsed)
+    unasked = [p.shot for p in rehearsed.runs[0].pictures if p.error is None]
+    if unasked and rehearsed.conditions.loop != "replay":
         names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
         yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
-    yield from _spoiled(done)
-    yield from _landed(done)
-    if done.runs[0].fleets and done.conditions.wind.speed:
+    yield from _spoiled(rehearsed)
+    yield from _landed(rehearsed)
+    if rehearsed.runs[0].fleets and rehearsed.conditions.wind.speed:
         yield "fleets fly in gusts alone: their drones hold their speed over ground in any steady wind"
-    if alike(done.ir, done.conditions):
+    if alike(rehearsed.ir, rehearsed.conditions):
         yield "without gusts all runs are the same, so one is flown; `--gusts 1` shows what gusts do"
-    for i in range(len(done.runs[0].fleets)):
-        yield from _margin(done, [run.fleets[i] for run in done.runs])
-    for i in range(len(done.runs[0].fleet_pairs)):
-        yield _met(done, [run.fleet_pairs[i] for run in done.runs])
+    for i in range(len(rehearsed.runs[0].fleets)):
+        yield from _margin(rehearsed, [run.fleets[i] for run in rehearsed.runs])
+    for i in range(len(rehearsed.runs[0].fleet_pairs)):
+        yield _met(rehearsed, [run.fleet_pairs[i] for run in rehearsed.runs])
 
 
-def _spoiled(done: Rehearsed) -> Iterator[str]:
+def _spoiled(rehearsed: Rehearsed) -> Iterator[str]:
     """Yield remarks on pictures with other drones, unless the mission switches this off."""
-    if done.mission.rules.visibility == "off":
+    if rehearsed.mission.rules.visibility == "off":
         return
-    for i, first in enumerate(done.runs[0].courses):
-        share, run = max((run.courses[i].spoiled, run.number) for run in done.runs)
+    for i, first in enumerate(rehearsed.runs[0].courses):
+        share, run = max((run.courses[i].spoiled, run.number) for run in rehearsed.runs)
         if share > 0.0:
             seen = f"{at_least(100 * share, 1)} % of its pictures"
             yield f"{first.drone}: another drone is in {seen} in run {run}"
 
 
-def _landed(done: Rehearsed) -> Iterator[str]:
+def _landed(rehearsed: Rehearsed) -> Iterator[str]:
     """Yield a remark on how far off its pad each drone lands."""
-    for i, first in enumerate(done.runs[0].courses):
-        every = [(run.courses[i].landed, run.number) for run in done.runs]
+    for i, first in enumerate(rehearsed.runs[0].courses):
+        every = [(run.courses[i].landed, run.number) for run in rehearsed.runs]
         landed = [(off, run) for off, run in every if off is not None]
         if landed:
             off, run = max(landed)
@@ -233,18 +233,18 @@ def _landed(done: Rehearsed) -> Iterator[str]:
             yield f"{first.drone}: is still in the air when its plan ends, in {lacks} of {len(every)} runs"
 
 
-def _planned_anew(done: Rehearsed) -> Iterator[str]:
+def _planned_anew(rehearsed: Rehearsed) -> Iterator[str]:
     """Yield remarks on the shots that were replanned, and on failed replans."""
-    if done.conditions.loop != "replan":
+    if rehearsed.conditions.loop != "replan":
         return
-    mission = done.mission
-    anew = {each.phase.shot for track in done.ir.drones for each in replanned(mission, track)}
+    mission = rehearsed.mission
+    anew = {each.phase.shot for track in rehearsed.ir.drones for each in replanned(mission, track)}
     rest = [f"`{shot.id}`" for shot in mission.shots if shot.id not in anew]
     if rest:
         why = "they film nothing that moves, or a pose of their own binds them"
         yield f"not planned anew, but flown as planned: {', '.join(rest)}; {why}"
-    for i, first in enumerate(done.runs[0].courses):
-        counts = [c for c in (run.courses[i].replans for run in done.runs) if c is not None]
+    for i, first in enumerate(rehearsed.runs[0].courses):
+        counts = [c for c in (run.courses[i].replans for run in rehearsed.runs) if c is not None]
         if not counts:
             continue
         yield (
@@ -260,14 +260,14 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
         late = [c.late for c in counts if c.late]
         if late:
             yield (
-                f"{first.drone}: in {len(late)} of {len(done.runs)} runs it is not back on its plan for "
+                f"{first.drone}: in {len(late)} of {len(rehearsed.runs)} runs it is not back on its plan for "
                 f"{late[0]}, because no way there is clear"
             )
 
 
-def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
+def _margin(rehearsed: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
     """Yield remarks on the largest stray, the nearest pair, and a sufficient margin."""
-    fleet = done.mission.fleet(every[0].fleet)
+    fleet = rehearsed.mission.fleet(every[0].fleet)
     names, far = drone_names(fleet), max(every, key=lambda each: each.flown.farthest).flown
     yield f"{fleet.name}: {names[far.drone]} strays farthest, at {as_minutes(far.time)}"
     near = min(
@@ -283,10 +283,10 @@ def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
     yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
 
 
-def _met(done: Rehearsed, every: list[FleetPair]) -> str:
+def _met(rehearsed: Rehearsed, every: list[FleetPair]) -> str:
     """Return the remark on the nearest drones of two fleets, or of a fleet and a camera."""
     worst = min(every, key=lambda each: each.near.distance)
-    near, names = worst.near, {fleet.name: drone_names(fleet) for fleet in done.mission.fleets}
+    near, names = worst.near, {fleet.name: drone_names(fleet) for fleet in rehearsed.mission.fleets}
     one, other = names[worst.one][near.first], names.get(worst.other, (worst.other,))[near.second]
     text = f"{worst.one} and {worst.other}: {one} and {other} come nearest"
     how = f"{at_most(near.distance)} m at {as_minutes(near.time)}"

@@ -53,11 +53,11 @@ class ConditionRefiner:
 
     def shots(self, path: PathIR, ctx: PassContext) -> list[Refined]:
         """Refine every moving shot."""
-        done: list[Refined] = []
+        refined: list[Refined] = []
         for subject in subjects(path):
             ctx.progress(f"refine shot {subject.leg.shot}")
-            done.append(refine_shot(subject, self.condition))
-        return done
+            refined.append(refine_shot(subject, self.condition))
+        return refined
 
     def _joined(self, path: PathIR, done: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
         """Return the path with the refined shots; without a transfer to its ends a shot stays unrefined."""

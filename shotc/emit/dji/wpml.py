@@ -190,12 +190,12 @@ class WpmlMission:
         if i == 0:
             group = self._group(mark, ids, (0, 0), self.profile.group_mode, "reachPoint")
             self._rotate(group, ids, point.pitch)
-        done = [action for action in point.actions if action.photos is None]
-        if done:
-            stays = any(a.kind == "stay" for a in done)
-            mode = "sequence" if stays or len(done) > 1 else self.profile.group_mode
+        actions = [action for action in point.actions if action.photos is None]
+        if actions:
+            stays = any(a.kind == "stay" for a in actions)
+            mode = "sequence" if stays or len(actions) > 1 else self.profile.group_mode
             group = self._group(mark, ids, (i, i), mode, "reachPoint")
-            for action in done:
+            for action in actions:
                 if action.kind == "stay":
                     self._put(self._action(group, ids, "hover"), "hoverTime", f"{action.seconds:.1f}")
                     continue

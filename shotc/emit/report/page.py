@@ -238,8 +238,8 @@ def _ground(plan: VerifiedIR, site: Volumes) -> Iterator[Row]:
         yield f"target {target.name}", f"{moves}; drones keep {rules.target_clearance:g} m from it"
     for display in mission.displays:
         if display.viewpoint is not None:
-            away = _from_audience(site, (display.viewpoint[0], display.viewpoint[1]))
-            yield f"audience of {display.id}", away
+            direction = _from_audience(site, (display.viewpoint[0], display.viewpoint[1]))
+            yield f"audience of {display.id}", direction
 
 
 def _from_audience(site: Volumes, seat: tuple[float, float]) -> str:

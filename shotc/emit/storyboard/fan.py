@@ -164,8 +164,8 @@ def _faces(fan: Fan) -> Array:
     p = np.nan_to_num(fan.points)
     light = hillshade(np.cross(p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]))
     colors = shades(np.array(GROUND), light)
-    away = 0.5 * (fan.radius[1:] + fan.radius[:-1])
-    haze = (away / (away + HAZE_RATIO * max(fan.over, 10.0)))[:, None, None]
+    distances = 0.5 * (fan.radius[1:] + fan.radius[:-1])
+    haze = (distances / (distances + HAZE_RATIO * max(fan.over, 10.0)))[:, None, None]
     return np.asarray(colors + (np.array(GROUND_FAR) - colors) * haze)
 
 

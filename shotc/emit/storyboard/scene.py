@@ -42,7 +42,7 @@ def draw_scene(
     subjects = {part for name in subjects for part in mission.parts_of(name)}
     things = painting_order(view.eye, _things(mission))
     layers: list[FanPainter | MeshPainter] = []
-    away = [AT_FOOT_SHARE * _distance(view.eye, thing) for thing in things]
+    distances = [AT_FOOT_SHARE * _distance(view.eye, thing) for thing in things]
     meshes = MeshPainter(canvas, view, mission) if mission.meshes else None
     bands: list[float] = []
     if mission.terrain is None:
@@ -50,9 +50,11 @@ def draw_scene(
     else:
         draw_sky(canvas, view, SKY_LOW)
         bands = [] if meshes is None else meshes.bands
-        layers.append(FanPainter(canvas, view, fan_of(view, mission.terrain.ground, [*away, *bands]), grid))
+        layers.append(
+            FanPainter(canvas, view, fan_of(view, mission.terrain.ground, [*distances, *bands]), grid)
+        )
     layers += [] if meshes is None else [meshes]
-    for thing, distance in zip(things, away, strict=True):
+    for thing, distance in zip(things, distances, strict=True):
         # What is nearer than an object is painted after it, and so covers it.
         _draw_beyond(layers, distance, bands)
         _thing(canvas, view, thing, subjects)

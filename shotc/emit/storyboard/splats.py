@@ -129,7 +129,7 @@ def _small(faces: Faces, project: Project) -> Faces:
     """Return the potentially visible triangles, none longer than LONGEST_PX."""
     within = _in_view(faces.triangles, project)
     triangles, colors = faces.triangles[within], faces.colors[within]
-    done = [Faces(triangles[:0], colors[:0])]
+    finished = [Faces(triangles[:0], colors[:0])]
     while len(triangles):
         page = project(triangles)
         seen = ~np.any(np.all(page.beyond, axis=1), axis=1)
@@ -138,10 +138,11 @@ def _small(faces: Faces, project: Project) -> Faces:
         edges = np.linalg.norm(triangles - triangles[:, [1, 2, 0]], axis=2).max(axis=1)
         large = seen & np.where(before, sides > LONGEST_PX, edges > LEAST_M)
         keep = seen & ~large
-        done.append(Faces(triangles[keep], colors[keep]))
+        finished.append(Faces(triangles[keep], colors[keep]))
         triangles, colors = _quartered(triangles[large]), np.tile(colors[large], (4, 1))
     return Faces(
-        np.concatenate([some.triangles for some in done]), np.concatenate([some.colors for some in done])
+        np.concatenate([some.triangles for some in finished]),
+        np.concatenate([some.colors for some in finished]),
     )
 
 

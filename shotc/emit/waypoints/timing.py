@@ -65,9 +65,9 @@ def too_near(mission: MissionIR, flight: DroneTrajectory, path: Array, name: str
 
 def evenly(path: Array) -> Array:
     """Return positions (k, 3) every STEP_M along a path through positions (n, 3), both ends included."""
-    done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1)))
-    at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP_M) + 1))
-    return np.stack([np.interp(at, done, axis) for axis in path.T], axis=1)
+    lengths = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1)))
+    at = np.linspace(0.0, lengths[-1], max(2, ceil(lengths[-1] / STEP_M) + 1))
+    return np.stack([np.interp(at, lengths, axis) for axis in path.T], axis=1)
 
 
 def _places(flight: DroneTrajectory) -> Array:

@@ -176,13 +176,13 @@ def _after_needs(ir: KeyframeIR, drones: Sequence[Drone]) -> list[Drone]:
     needs: dict[str, set[str]] = {drone.name: set() for drone in left}
     for placed in ir.shots:
         needs[placed.shot.drone].add(owner.get(placed.shot.timing.after or "", placed.shot.drone))
-    done: list[Drone] = []
+    ordered: list[Drone] = []
     while left:
-        names = {drone.name for drone in done}
+        names = {drone.name for drone in ordered}
         ready = next((d for d in left if needs[d.name] <= names | {d.name}), left[0])
         left.remove(ready)
-        done.append(ready)
-    return done
+        ordered.append(ready)
+    return ordered
 
 
 def _plan(

@@ -72,20 +72,20 @@ def fly(task: ClockTask) -> PositionResult:
     if plain.curve is None:
         return plain
     best = plain
-    kept = _kept(task, plain.curve)
+    pictures = _kept(task, plain.curve)
     for _ in range(PICTURE_ROUNDS):
-        if kept.worst >= 0.0 or best.curve is None:
+        if pictures.worst >= 0.0 or best.curve is None:
             break
-        freer = _fly(task, kept.half_spaces)
+        freer = _fly(task, pictures.half_spaces)
         if freer.curve is None:
             break
         later = _kept(task, freer.curve)
-        if later.worst <= kept.worst + PROVED_M:
+        if later.worst <= pictures.worst + PROVED_M:
             break
-        best, kept = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
+        best, pictures = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
     if not prefers_free_pictures(task.mission) or best.curve is None:
         return best
-    span, free = (task.clock.start, task.clock.end), kept.worst >= 0.0
+    span, free = (task.clock.start, task.clock.end), pictures.worst >= 0.0
     price = cost(task.camera_task, span, plain.curve, best.curve)
     if free and price.little:
         return best

@@ -152,7 +152,7 @@ def timed_shot(
         return NoMotion(curve, (), "camera")
     task, flown, curve = _seeing(_Motion(task, flown, curve))
     assert flown.curve is not None
-    away = _away(task, flown.curve)
+    distances = _away(task, flown.curve)
     keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.framing(shot.id)
     leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, keyframes)
@@ -164,8 +164,8 @@ def timed_shot(
         *(() if flown.given_up is None else noted(shot.id, flown.given_up)),
     )
     lacks = lacking_each(task.motions, flown.curve, (clock.start, clock.end))
-    deviations = _deviations(task, flown, away)
-    return TimedShot(leg, deviations, stats, float(away.max()), (lacks[0].any, lacks[1].any))
+    deviations = _deviations(task, flown, distances)
+    return TimedShot(leg, deviations, stats, float(distances.max()), (lacks[0].any, lacks[1].any))
 
 
 def _with_camera(task: ClockTask, position: Piecewise) -> Piecewise | Status:
@@ -260,12 +260,12 @@ def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -
     free = fly(replace(task, free=True)).curve
     if free is None:
         return None
-    away = []
+    missed = []
     for b in task.bound:
         place = np.array(b.place)
         owner, lack = _in_the_way(task, place, b.start) or (None, 0.0)
-        away.append(Away(b.index, float(np.linalg.norm(free(b.start) - place)), b.start, owner, lack))
-    far = tuple(sorted((a for a in away if a.distance > ON_PLACE_M), key=lambda a: -a.distance))
+        missed.append(Away(b.index, float(np.linalg.norm(free(b.start) - place)), b.start, owner, lack))
+    far = tuple(sorted((a for a in missed if a.distance > ON_PLACE_M), key=lambda a: -a.distance))
     for longer in LONGER_RATIOS:
         slower = slowed(task.mission, placed, start, longer)
         camera_task = camera_task_of(task.mission, task.drone, slower, start)

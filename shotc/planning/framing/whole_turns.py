@@ -22,14 +22,14 @@ def with_turns(
     Where no heading is written before, that of the keyframe before counts, from 0 to 360 deg. The change of
     angle due to composition is added.
     """
-    done = placed[:1]
+    turned = placed[:1]
     for i in range(1, len(placed)):
         heading = keyframes[i].heading
         if heading is None or abs(heading) < TURN_RAD - ROUNDING:
-            done += (placed[i],)
+            turned += (placed[i],)
             continue
         before = keyframes[i - 1].heading
         written = (heading_of(placed[i - 1].yaw) if before is None else before) - heading
         step = placed[i].yaw - placed[i - 1].yaw
-        done += (placed[i]._replace(turn=written + wrapped(step - written)),)
-    return done
+        turned += (placed[i]._replace(turn=written + wrapped(step - written)),)
+    return turned

@@ -164,9 +164,9 @@ def _iterate(
             hulls, share = chords, FIRST_SHARE
             continue
         total = solution.objective + solution.excess
-        done = best is not None and total > (1 - GAIN_SHARE) * (best.objective + best.excess)
-        best = solution if best is None or not done else best
-        if done or not problem.half_spaces:
+        settled = best is not None and total > (1 - GAIN_SHARE) * (best.objective + best.excess)
+        best = solution if best is None or not settled else best
+        if settled or not problem.half_spaces:
             break
         hulls, share = points, LATER_SHARE
     return _Iterated(problem, best or Status.INFEASIBLE, used)

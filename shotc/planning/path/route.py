@@ -133,17 +133,17 @@ class _Graph:
         cost = np.full(len(nodes), np.inf)
         cost[0] = 0.0
         parent = np.zeros(len(nodes), dtype=np.intp)
-        done = np.zeros(len(nodes), dtype=bool)
+        closed = np.zeros(len(nodes), dtype=bool)
         ahead = np.linalg.norm(nodes - nodes[1], axis=1)
         queue = [(float(ahead[0]), 0)]
         while queue:
             _, i = heappop(queue)
-            if done[i]:
+            if closed[i]:
                 continue
-            done[i] = True
+            closed[i] = True
             if i == 1:
                 return self._trace(parent), self.touched
-            others = np.flatnonzero(~done)
+            others = np.flatnonzero(~closed)
             reach = cost[i] + self._prices(i, others)
             better = reach < cost[others]
             for k, value in zip(others[better], reach[better], strict=True):

@@ -110,10 +110,10 @@ class _Trial:
         stretch, fleet, ctx = self.stretch, self.fleet, self.ctx
         ctx.progress(f"keeping fleet {fleet.name} apart: would `{stretch.key}: {seconds:.2f}` do")
         breaks, bounds = stretch.lasting(seconds), DerivativeBounds(fleet.limits)
-        done = bounded(breaks, stretch.reference, bounds)
-        if len(done.failed):
+        result = bounded(breaks, stretch.reference, bounds)
+        if len(result.failed):
             return False
-        coef = short(breaks, done.coef, bounds, CONTROL_DECIMALS)
+        coef = short(breaks, result.coef, bounds, CONTROL_DECIMALS)
         if kept(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
             return True
         tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))

@@ -72,12 +72,12 @@ def pushed(
         coef = pusher.push(coef, reference, movable, Push(distance, APART_WEIGHT * WEIGHT_RATIO**k))
         if len(pusher.crowded(coef, (1.0 - HOPELESS_SHARE) * fleet.apart.across)):
             continue
-        done = bounded(breaks, np.round(coef, CONTROL_DECIMALS), bounds, free)
-        if len(done.failed):
+        result = bounded(breaks, np.round(coef, CONTROL_DECIMALS), bounds, free)
+        if len(result.failed):
             continue
-        reached = max(reached, closest(breaks, done.coef, fleet.apart).proven)
+        reached = max(reached, closest(breaks, result.coef, fleet.apart).proven)
         if kept(reached, fleet.apart.across):
-            return Pushed(done.coef, k + 1, reached)
+            return Pushed(result.coef, k + 1, reached)
     return Pushed(None, rounds, reached)
 
 

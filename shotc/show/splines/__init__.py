@@ -41,12 +41,12 @@ class BoundSplines:
         fleets, stats, faults = [], list(ir.stats), []
         for flight in ir.fleets:
             ctx.progress(f"limits of fleet {flight.fleet}")
-            done = _Fitter(mission, mission.fleet(flight.fleet), flight)
+            fitter = _Fitter(mission, mission.fleet(flight.fleet), flight)
             for window in windows(flight.coef):
-                done.fit(window)
-            faults += done.faults
-            stats += done.stats()
-            fleets.append(replace(flight, coef=done.coef))
+                fitter.fit(window)
+            faults += fitter.faults
+            stats += fitter.stats()
+            fleets.append(replace(flight, coef=fitter.coef))
         if faults:
             return Outcome(None, tuple(faults))
         return Outcome(replace(ir, fleets=tuple(fleets), stats=tuple(stats)))
@@ -72,12 +72,12 @@ class _Fitter:
         if slow is not None and bounded(breaks, reference[[slow]], self.bounds).failed.size:
             self.faults.append(self._too_quick(breaks, reference, slow))
             return
-        done = bounded(breaks, reference, self.bounds)
-        self.done.append(done)
-        if len(done.failed):
-            self.faults.append(self._too_quick(breaks, reference, int(done.failed[0])))
+        result = bounded(breaks, reference, self.bounds)
+        self.done.append(result)
+        if len(result.failed):
+            self.faults.append(self._too_quick(breaks, reference, int(result.failed[0])))
             return
-        self.coef[:, window.points] = short(breaks, done.coef, self.bounds, CONTROL_DECIMALS)
+        self.coef[:, window.points] = short(breaks, result.coef, self.bounds, CONTROL_DECIMALS)
 
     def _slowest(self, breaks: Array, reference: Array) -> int | None:
         """Return a drone that could not even fly straight from the first to the last position in time, or

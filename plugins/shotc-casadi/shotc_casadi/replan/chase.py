@@ -53,8 +53,8 @@ class ShotChase:
             elapsed = s.time - (0.0 if last is None else last.times[0])
             if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
-            done = solver.walk(start, FIRST if last is None else self._until)
-            return flight.replan_of(solver, done, s.time, widened)
+            walk = solver.walk(start, FIRST if last is None else self._until)
+            return flight.replan_of(solver, walk, s.time, widened)
 
     def _begin(self, solver: Solver) -> None:
         w, into = self._weights, solver.evaluation

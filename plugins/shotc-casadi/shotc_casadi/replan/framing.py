@@ -82,8 +82,8 @@ class Framing:
             elapsed = s.time - (0.0 if last is None else last.times[0])
             if not (into.is_finite and isfinite(elapsed) and isfinite(start.sum())):
                 return fault(_given(s, last))
-            done = solver.walk(start, FIRST if last is None else self._until)
-            return flight.replan_of(solver, done, s.time, widened)
+            walk = solver.walk(start, FIRST if last is None else self._until)
+            return flight.replan_of(solver, walk, s.time, widened)
 
     def _flight(self, cast: Cast) -> ShotSolvers:
         if cast not in self._flights:

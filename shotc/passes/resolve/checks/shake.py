@@ -77,17 +77,21 @@ def _shake(mission: MissionIR, shot: Shot, film: Way, track: Track) -> _Shake | 
         return None
     drone = mission.drone(shot.drone)
     half = tan(0.5 * drone.hfov)
-    squares = shares = away = 0.0
+    squares = shares = distances = 0.0
     worst, when = 0.0, start
     for t, off in rows:
         share = (t - start) / duration if duration > 0 else 0.0
         eye = film[round(share * (len(film) - 1))].at
         far = max(dist(eye, track.at(t)), drone.radius)
         across = _across(off, minus(track.at(t), eye))
-        squares, shares, away = squares + across**2, shares + (across / (far * half)) ** 2, away + far
+        squares, shares, distances = (
+            squares + across**2,
+            shares + (across / (far * half)) ** 2,
+            distances + far,
+        )
         worst, when = max((worst, when), (across, t))
     count = len(rows)
-    return _Shake(sqrt(squares / count), sqrt(shares / count), worst, when, away / count)
+    return _Shake(sqrt(squares / count), sqrt(shares / count), worst, when, distances / count)
 
 
 def _across(off: Vec3, sight: Vec3) -> float:

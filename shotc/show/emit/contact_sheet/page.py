@@ -124,8 +124,8 @@ def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
     text = "  ·  ".join(facts)
     canvas.write(x, base, text, Type(9.5, QUIET), 6.0)
     whose = "as seen from the viewpoint" if seen.placed else "as seen from the south, for want of a viewpoint"
-    away = f"{whose}, {_distance(board, seen):.0f} m away"
-    canvas.text(WIDTH - MARGIN, base, away, Type(9.5, QUIET, across="right"))
+    words = f"{whose}, {_distance(board, seen):.0f} m away"
+    canvas.text(WIDTH - MARGIN, base, words, Type(9.5, QUIET, across="right"))
 
 
 def _distance(board: Board, seen: Audience) -> float:
