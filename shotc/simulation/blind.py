@@ -13,7 +13,7 @@ from shotc.simulation.sensors import Interval, within
 from shotc.simulation.sent import Fading
 from shotc.simulation.situations import STAGE_S
 from shotc.simulation.target_reach import reaches
-from shotc.simulation.vehicle import VehicleSetpoint
+from shotc.simulation.vehicle import VehicleSetpoint, braked
 from shotc.simulation.walls import Standing, keeping_of
 from shotc.simulation.way_back import CLEAR, ReturnLack, WayBack, durations_back, return_lack
 from shotc.simulation.world import World
@@ -72,16 +72,7 @@ class BlindHold:
         return planned if self._back is None else self._back.setpoint(time)
 
     def _stopping(self, of: _Braking, time: float) -> VehicleSetpoint:
-        most = self.film.drone.limits.usable_acceleration
-        speed = np.linalg.norm(of.velocity, axis=1, keepdims=True)
-        along = of.velocity / np.maximum(speed, 1e-12)
-        t = np.minimum(time - of.since, speed / most)
-        moves = time - of.since < speed / most
-        return VehicleSetpoint(
-            of.place + t * of.velocity - 0.5 * most * t * t * along,
-            of.velocity - most * t * along,
-            np.where(moves, -most * along, 0.0),
-        )
+        return braked(of.place, of.velocity, self.film.drone.limits.usable_acceleration, time - of.since)
 
     def _returning(self, now: VehicleSetpoint, time: float, planned: VehicleSetpoint) -> Fading:
         off, rate = now.position - planned.position, now.velocity - planned.velocity

@@ -13,7 +13,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.film import PlanSamples
-from shotc.simulation.vehicle import VehicleSetpoint
+from shotc.simulation.vehicle import VehicleSetpoint, braked
 
 PLACE = np.polynomial.Polynomial([1.0, 0.0, 0.0, -10.0, 15.0, -6.0])
 RATE = np.polynomial.Polynomial([0.0, 1.0, 0.0, -6.0, 8.0, -3.0])
@@ -122,14 +122,10 @@ class SentPlans:
         k = int(np.searchsorted(plan.times, time, side="right")) - 1
         p, v = plan.places[k], plan.velocities[k]
         left = time - float(plan.times[k])
-        if k < len(plan.accelerations):
-            a = plan.accelerations[k]
-        else:
-            speed = float(np.linalg.norm(v))
-            stops = speed / self.acceleration
-            a = np.zeros(3) if left >= stops else -self.acceleration * v / speed
-            if left >= stops:
-                return p + 0.5 * stops * v, np.zeros(3), a
+        if k == len(plan.accelerations):
+            stopping = braked(p, v, self.acceleration, left)
+            return stopping.position, stopping.velocity, stopping.acceleration
+        a = plan.accelerations[k]
         return p + left * v + 0.5 * left * left * a, v + left * a, a
 
 

@@ -73,6 +73,21 @@ class VehicleSetpoint:
     acceleration: Array
 
 
+def braked(place: Array, velocity: Array, deceleration: float, seconds: float) -> VehicleSetpoint:
+    """Return the setpoint of drones that brake evenly on a straight line, and then hold.
+
+    place, velocity : where they began, shape (..., 3); seconds : since then; deceleration : m/s^2
+    """
+    speed = np.linalg.norm(velocity, axis=-1, keepdims=True)
+    along = velocity / np.maximum(speed, 1e-12)
+    t = np.minimum(seconds, speed / deceleration)
+    return VehicleSetpoint(
+        place + t * velocity - 0.5 * deceleration * t * t * along,
+        velocity - deceleration * t * along,
+        np.where(seconds < speed / deceleration, -deceleration * along, 0.0),
+    )
+
+
 class Plant(Protocol):
     """The response of a drone to its controller's demand."""
 

@@ -1,7 +1,16 @@
 import numpy as np
 import pytest
 
-from shotc.simulation.vehicle import G_M_S2, STEP_S, Vehicle, VehicleSetpoint, VehicleState, moved, within
+from shotc.simulation.vehicle import (
+    G_M_S2,
+    STEP_S,
+    Vehicle,
+    VehicleSetpoint,
+    VehicleState,
+    braked,
+    moved,
+    within,
+)
 
 STILL = np.zeros((1, 3))
 
@@ -10,6 +19,22 @@ def flown(vehicle, state, asked, wind, seconds, error=0.0):
     for _ in range(round(seconds / STEP_S)):
         state = moved(vehicle, state, asked, wind, error)
     return state
+
+
+def test_a_drone_that_brakes_stops_at_the_square_of_its_speed_over_twice_its_deceleration():
+    place, velocity = (
+        np.array([[1.0, 2.0, 3.0], [0.0, 0.0, 9.0]]),
+        np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 0.0]]),
+    )
+    one = braked(place, velocity, 2.5, 1.0)
+    assert one.position == pytest.approx(place + np.array([[2.25, 3.0, 0.0], [0.0, 0.0, 0.0]]))
+    assert one.velocity == pytest.approx(0.5 * velocity)
+    assert one.acceleration == pytest.approx(np.array([[-1.5, -2.0, 0.0], [0.0, 0.0, 0.0]]))
+    for seconds in (2.0, 60.0):
+        rest = braked(place, velocity, 2.5, seconds)
+        assert rest.position == pytest.approx(place + np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 0.0]]))
+        assert rest.velocity == pytest.approx(np.zeros((2, 3)), abs=1e-12)
+        assert not rest.acceleration.any()
 
 
 @pytest.mark.slow
