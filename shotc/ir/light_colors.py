@@ -143,7 +143,7 @@ def _over(colors: Levels, layer: Layer, spots: Spots, lit: Levels | None) -> Lev
 
 def _time_weight(layer: Layer, t: Array) -> Levels:
     """Return the weight of a layer at times (T,), 0 to 1."""
-    a, b, c, d = layer.span
-    rising = np.clip((t - a) / (b - a), 0.0, 1.0) if b > a else (t >= a)
-    falling = np.clip((d - t) / (d - c), 0.0, 1.0) if d > c else (t <= d)
+    starts, full, falls, ends = layer.span
+    rising = np.clip((t - starts) / (full - starts), 0.0, 1.0) if full > starts else (t >= starts)
+    falling = np.clip((ends - t) / (ends - falls), 0.0, 1.0) if ends > falls else (t <= ends)
     return np.asarray(np.minimum(rising, falling), dtype=np.float32)

@@ -119,18 +119,24 @@ class Footage(NamedTuple):
 Painted = Tint | Gradient | Band | Glints | Footage
 
 
-class Layer(NamedTuple):
-    """One effect of a stack; its weight is the product of the paint's weight, the opacity and a weight of
-    time.
-
-    span : four times; the weight of time rises from 0 at the first to 1 at the second, and falls from 1 at
-        the third to 0 at the last; it is 0 before and after
+class FadeTimes(NamedTuple):
+    """When a layer fades in and out, seconds: its weight rises from 0 at ``starts`` to 1 at ``full``, and
+    falls from 1 at ``falls`` to 0 at ``ends``; it is 0 before and after.
     """
+
+    starts: float
+    full: float
+    falls: float
+    ends: float
+
+
+class Layer(NamedTuple):
+    """One effect of a stack; its weight is that of its paint, times its opacity, times that of its span."""
 
     paint: Painted
     blend: Blend
     opacity: float
-    span: tuple[float, float, float, float]
+    span: FadeTimes
 
 
 class Look(NamedTuple):

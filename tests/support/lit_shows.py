@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from shotc.ir.fleet import FleetTrajectory, Lights
-from shotc.ir.light_layers import Layer, Look, Painted
+from shotc.ir.light_layers import FadeTimes, Layer, Look, Painted
 
 ALWAYS = (0.0, 0.0, 100.0, 100.0)
 GREY = (60, 80, 100)
@@ -36,7 +36,7 @@ def lit(
 
 
 def layer(paint: Painted, blend: str = "mix", opacity: float = 1.0, span=ALWAYS) -> Layer:  # type: ignore[no-untyped-def]
-    return Layer(paint, blend, opacity, span)  # type: ignore[arg-type]
+    return Layer(paint, blend, opacity, FadeTimes(*span))  # type: ignore[arg-type]
 
 
 def line(n: int, direction: tuple[float, float, float] = (1.0, 0.0, 0.0)) -> np.ndarray:

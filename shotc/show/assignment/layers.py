@@ -13,6 +13,7 @@ from shotc.ir.light_layers import (
     Along,
     Axis,
     Band,
+    FadeTimes,
     Footage,
     Glints,
     Gradient,
@@ -46,10 +47,10 @@ class Times(NamedTuple):
     For an effect of a display: its start, its start, its end, and the end of a colour to which it fades.
     """
 
-    away: float
+    departs: float
     start: float
     end: float
-    gone: float
+    arrives: float
 
 
 class EffectContext(NamedTuple):
@@ -71,19 +72,19 @@ def layer_of(effect: Effect, stage: EffectContext, times: Times, seed: int) -> L
 
     seed : unique among the effects of the mission
     """
-    own = times._replace(start=times.away, end=times.start) if effect.over == "transition" else times
+    own = times._replace(start=times.departs, end=times.start) if effect.over == "transition" else times
     paint = _paint(effect, stage, own, seed)
     return Layer(paint, effect.blend, effect.opacity, _span(effect, times))
 
 
 def counts(effect: Effect, times: Times) -> tuple[float, float]:
     """Return the start and the end of an effect, seconds."""
-    away, start, end, gone = times
-    return {"both": (away, gone), "transition": (away, start)}.get(effect.over, (start, end))
+    departs, start, end, arrives = times
+    return {"both": (departs, arrives), "transition": (departs, start)}.get(effect.over, (start, end))
 
 
-def _span(effect: Effect, times: Times) -> tuple[float, float, float, float]:
-    """Return the times of the layer's fade-in and fade-out, as ``Layer.span``."""
+def _span(effect: Effect, times: Times) -> FadeTimes:
+    """Return the times of the layer's fade-in and fade-out."""
     first, last = counts(effect, times)
     if isinstance(effect.paint, Fade):
         return _fade(effect.paint, effect.over, times)
@@ -91,20 +92,20 @@ def _span(effect: Effect, times: Times) -> tuple[float, float, float, float]:
         # It appears with its picture, so it fades while that stands.
         rise = (times.start, times.start + effect.fade_in) if effect.fade_in else (first, first)
         fall = (times.end - effect.fade_out, times.end) if effect.fade_out else (last, last)
-        return (*rise, *fall)
-    return (first, first + effect.fade_in, last - effect.fade_out, last)
+        return FadeTimes(*rise, *fall)
+    return FadeTimes(first, first + effect.fade_in, last - effect.fade_out, last)
 
 
-def _fade(fade: Fade, over: str, times: Times) -> tuple[float, float, float, float]:
-    away, start, end, gone = times
+def _fade(fade: Fade, over: str, times: Times) -> FadeTimes:
+    departs, start, end, arrives = times
     if over == "transition":
-        start, end, gone = away, start, start
+        start, end, arrives = departs, start, start
     elif over == "hold":
-        away, gone = start, end
+        departs, arrives = start, end
     length = end - start if fade.seconds is None else min(fade.seconds, end - start)
     if fade.to:
-        return (end - length, end, gone, gone)
-    return (away, away, start, start + length)
+        return FadeTimes(end - length, end, arrives, arrives)
+    return FadeTimes(departs, departs, start, start + length)
 
 
 def _paint(effect: Effect, stage: EffectContext, times: Times, seed: int) -> Painted:

@@ -169,15 +169,15 @@ def _of_display(
     first, last = mine[0].times, mine[-1].times
     number = mission.displays.index(display)
     for k, effect in enumerate(display.effects):
-        start = first.away if effect.since is None else _moment(effect.since, mine, is_end=False)
-        end = last.gone if effect.until is None else _moment(effect.until, mine, is_end=True)
-        end = min(end, last.gone)
+        start = first.departs if effect.since is None else _moment(effect.since, mine, is_end=False)
+        end = last.arrives if effect.until is None else _moment(effect.until, mine, is_end=True)
+        end = min(end, last.arrives)
         if end <= start:
-            reason = f"its last picture is gone {last.gone - first.start:.1f} s after the first one stands"
+            reason = f"its last picture is gone {last.arrives - first.start:.1f} s after the first one stands"
             faults_of_lights.append(faults.never_seen(mission, effect, reason))
             continue
         under = [p for p in mine if p.times.start < end and p.times.end > start] or mine
-        times = Times(start, start, end, end if effect.until is None else last.gone)
+        times = Times(start, start, end, end if effect.until is None else last.arrives)
         yield layer_of(effect, _stage(display, under, images), times, 10_000 * (number + 1) + k)
 
 
