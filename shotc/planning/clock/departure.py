@@ -68,7 +68,8 @@ class Transfer:
     """Unfilmed legs; the first one has its departure time.
 
     end : mission time at which the last leg ends, seconds
-    slack : least slack over clearances, metres
+    slack : least slack over clearances, metres, with the next leg and some seconds after it
+    on_way : the same until the next leg begins
     unseen : least distance out of the pictures of others, metres
     met : the target that it comes too near to, if there is one
     kept : least slack over the clearances of transfers, metres
@@ -78,6 +79,7 @@ class Transfer:
     legs: tuple[MovingLeg, ...]
     end: float
     slack: float = inf
+    on_way: float = inf
     unseen: float = inf
     met: TargetConflict | None = None
     kept: float = inf
@@ -124,7 +126,8 @@ def choose(
     The best is chosen lexicographically: no target too near, then no drone too near, then the stated
     clearances of transfers, then the least delay, then the other clearances of transfers, then the slack,
     then the pictures of others. The order follows verification, which refuses what is too near. A shot that
-    is late can still be put off, or be reported with its earliest start.
+    is late can still be put off, or be reported with its earliest start. Where a start is given, no transfer
+    in time changes what the next leg comes near to, so that this does not make a late one better.
 
     ways : legs of each candidate, the preferred ones first
     then : the next leg, which has to be clear as well
@@ -150,16 +153,18 @@ def choose(
             break
     deadline = inf if when.deadline is None else when.deadline
 
-    def worth(transfer: Transfer) -> tuple[bool, bool, float, float, float, float, float]:
+    def worth(transfer: Transfer) -> tuple[bool, bool, float, float, bool, float, float, float]:
         late = max(0.0, transfer.end - deadline)
         kept = min(_kept(transfer, waits(transfer)), 0.0)
         unseen = _unseen(others, transfer, waits(transfer))
         required = min(transfer.required, 0.0)
+        apart = transfer.slack if when.deadline is None else transfer.on_way
         return (
             transfer.met is None,
-            transfer.slack >= 0.0,
+            apart >= 0.0,
             required,
             -late,
+            transfer.slack >= 0.0,
             kept,
             min(transfer.slack, COMFORT_M),
             unseen,
@@ -217,16 +222,19 @@ def _tries(
         course = _Course(legs, [c.channels(0, 1, 2) for c in curves], leaves, film, end)
         times = np.arange(begin, end + (0.0 if film is None else float(film.end) + LEAVES_S) + STEP_S, STEP_S)
         places, upright = course.at(times), course.upright(times)
-        slack = min(_slack(what, drone.radius, times, places, upright) for what in others.moving)
-        unseen = seen_on(drone, others.visibility, times, places)
         until_then = times <= end
+        slacks = np.min(
+            [_slacks(what, drone.radius, times, places, upright) for what in others.moving], axis=0
+        )
+        slack, on_way = float(slacks.min(initial=inf)), float(slacks[until_then].min(initial=inf))
+        unseen = seen_on(drone, others.visibility, times, places)
         met = _met(others.moving, drone.radius, course, times[until_then])
         between = until_then & ~upright
         kept_from = (*others.moving, *others.later)
         apart = [(what, _apart(what, times[between], places[between])) for what in kept_from]
         kept = min((lack for _, lack in apart), default=inf)
         required = min((lack for what, lack in apart if what.required), default=inf)
-        yield Transfer(tuple(started), leaves + duration, slack, unseen, met, kept, required)
+        yield Transfer(tuple(started), leaves + duration, slack, on_way, unseen, met, kept, required)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -284,13 +292,12 @@ def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
     places[inside] = curve(np.minimum(times[inside] - begin, float(curve.end)))
 
 
-def _slack(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> float:
-    """Return the least slack over the clearance from something that moves, metres.
+def _slacks(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> Array:
+    """Return the slack over the clearance from something that moves at times (M,), metres.
 
     radius : of the body, which is the clearance at the pad
     """
-    needs = _needs(what, radius, upright)
-    return float((distances(what.part, places - what.at(times)) - needs).min(initial=inf))
+    return np.asarray(distances(what.part, places - what.at(times)) - _needs(what, radius, upright))
 
 
 def _apart(what: Moving, times: Array, places: Array) -> float:
