@@ -43,3 +43,14 @@ def test_values_that_hardly_weigh_pull_a_curve_without_anchors_to_their_mean(
     status, coef = fit(Fit(breaks, at, value, weight, none, none, stiff))
     assert status is Status.SOLVED
     assert np.abs(coef - value.mean()).max() < 1e-6
+
+
+@pytest.mark.parametrize("beyond", [5e-7, 1e-3])
+def test_a_fit_that_is_a_little_beyond_its_bound_is_bounded(beyond: float) -> None:
+    breaks = np.linspace(0.0, 4.0, 5)
+    at, none, ones = (breaks[:-1] + breaks[1:]) / 2, np.empty(0), np.ones(4)
+    low, high = np.full((4, 6), -1.0), np.ones((4, 6))
+    status, coef = fit(Fit(breaks, at, (1.0 + beyond) * ones, ones, none, none, (1.0, 1.0), low, high))
+    assert status is Status.SOLVED
+    assert coef.max() <= 1.0 + 1e-8
+    assert coef == pytest.approx(1.0, abs=1e-3)

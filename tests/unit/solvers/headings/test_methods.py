@@ -276,7 +276,7 @@ def test_of_two_ways_that_cost_the_same_one_is_flown_and_nothing_is_left_open() 
 
 
 def test_the_virtual_curve_begins_and_ends_with_the_asked_headings_to_the_last_bit() -> None:
-    problem = task([0.1, 1.3, 2.2, 0.7])
+    problem = task([-1.02, 1.73, -1.18, -0.28])
     found = solve_headings(problem, "virtual")
     assert found.curve is not None
     at_keyframes = found.curve.ctrl[0, 0], *(found.curve(t) for t in problem.at[1:])
