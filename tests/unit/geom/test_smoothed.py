@@ -76,3 +76,19 @@ def test_headings_are_smoothed_with_the_places() -> None:
     calm = smoothed(track(times, ring)._replace(headings=tuple(turning)), 3.0)
     off = [[h - 0.1 * t for h, t in zip(each, times, strict=True)] for each in (turning, calm.headings)]
     assert sum(x * x for x in off[1]) < 0.3 * sum(x * x for x in off[0])
+
+
+def test_the_scatter_of_a_part_is_that_of_the_whole_there() -> None:
+    times = tuple(0.5 * k for k in range(60))
+    noise = np.random.default_rng(3).normal(size=(60, 3))
+    track = Track(times, tuple(map(tuple, noise.tolist())))
+    whole, part = scatter(track, 1.0, 0.0, 30.0), scatter(track, 1.0, 10.0, 20.0)
+    assert [t for t, _ in part] == [t for t in times if 10.0 <= t <= 20.0]
+    for time, off in part:
+        assert off == pytest.approx(dict(whole)[time], abs=1e-12)
+
+
+def test_the_farthest_of_two_sets_of_places_is_the_longest_way_between_them() -> None:
+    before = [(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)]
+    assert farthest(before, [(0.0, 3.0, 4.0), (1.0, 1.0, 2.0)]) == 5.0
+    assert farthest([], []) == 0.0

@@ -117,6 +117,13 @@ def test_a_chord_through_a_triangle_is_as_deep_as_its_lower_end_is_below_it() ->
     assert normal[0] == pytest.approx(turn[2])
 
 
+@pytest.mark.parametrize(("axis", "most"), [(0, 1.0), (1, 2.0), (2, 3.0)])
+def test_a_triangle_reaches_as_far_as_its_farthest_corner(axis: int, most: float):
+    triangle = np.diag([1.0, 2.0, 3.0])
+    for sign, far in ((1.0, most), (-1.0, 0.0)):
+        assert planes.support(triangle[None], sign * np.eye(3)[axis][None]) == pytest.approx([far])
+
+
 def test_what_is_far_needs_no_plane():
     ball = surface_of(np.asarray(trimesh.creation.icosphere(2, radius=3.0).triangles))
     found = half_spaces(ball, np.array([[[20.0, 0, 0], [20.0, 5, 0]]]), 1.0, REACH, some)

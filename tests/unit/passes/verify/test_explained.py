@@ -125,6 +125,20 @@ def test_wind_from_ahead_makes_a_course_too_fast_and_rise_counts_in_both_directi
         assert for_its_limits(slow, ExpectedPlaces(places, times), 0.5) == pytest.approx(behind + stops)
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_wind_from_any_side_that_is_against_a_course_holds_a_drone_back(axis: int) -> None:
+    one, ahead = flight(), np.eye(3)[axis]
+    wind = tuple((-2.0 * ahead[:2]).tolist())
+    limits = replace(one.drone.limits, speed=5.0, acceleration=2.0, jerk=8.0, wind=wind)
+    slow = JudgedFlight(one.mission, replace(one.drone, limits=limits), one.track)
+    times = np.linspace(0.0, 10.0, 101)
+    against, along = (
+        for_its_limits(slow, ExpectedPlaces(times[:, None] * way * 4.0 * ahead, times), 0.5)
+        for way in (1.0, -1.0)
+    )
+    assert against - along == pytest.approx(10.0 * (4.0 + 2.0 - 5.0))
+
+
 def body(name: str, centre: tuple[float, float, float], *, moves: bool) -> Target:
     there = (centre[0] + 4.0, centre[1], centre[2])
     track = Track((0.0, 20.0), (centre, there)) if moves else None

@@ -243,3 +243,13 @@ def test_a_product_is_as_far_as_the_viewpoint_the_ground_and_other_drones_the_ne
     assert found == pytest.approx(np.array([[13.0, 13.0], [13.0, 2.0]]))
     firing.display.viewpoint = None
     assert pyro_advice._Firing._least(firing, [1], during) == pytest.approx(np.array([[18.0, 2.0]]))
+
+
+@pytest.mark.parametrize(
+    ("of", "time", "burns"), [("swarm", 19.0, True), ("swarm", 16.9, False), ("other", 19.0, False)]
+)
+def test_a_product_burns_from_its_ignition_on_drones_of_its_own_fleet(
+    of: str, time: float, burns: bool
+) -> None:
+    asked = burning(5.0)
+    assert pyro.burning_at(asked, of, time) is burns

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise
+from shotc.passes.verify import pair
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.pair import _difference
+from tests.support.tampered_plans import MISSION, PLAN
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -28,3 +33,18 @@ def test_the_difference_of_two_flights_holds_at_every_instant(seed: int) -> None
     middle = 0.5 * (apart.low + apart.high)[wide]
     found = Piecewise(np.append(apart.low, apart.high[-1]), apart.ctrl)(middle)
     assert np.abs(found - (one(middle) - two(middle))).max() < 1e-9
+
+
+def test_a_camera_keeps_its_separation_from_drones_that_stand_on_their_pads(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    track, mission = PLAN.drones[0], MISSION
+    t = np.linspace(track.curve.start, track.curve.end, 4001)
+    flown = track.curve(t)[:, :3]
+    pads = ((0.0, -41.0, 18.5), (90.0, 90.0, 0.0))
+    monkeypatch.setattr(pair, "parked_fleets", lambda _: [SimpleNamespace(name="spare", pads=pads)])
+    (found,) = pair.from_fleets(PLAN, [JudgedFlight(mission, mission.drones[0], track)])
+    least = float(np.linalg.norm(flown - np.array(pads[0]), axis=1).min())
+    assert (found.constraint, found.limit) == ("separation from spare", mission.rules.separation)
+    assert found.worst == pytest.approx(least, abs=2e-3)
+    assert found.holds is (least >= mission.rules.separation)

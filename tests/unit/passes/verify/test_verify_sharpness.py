@@ -70,3 +70,4 @@ def test_discs_are_claimed_in_millimetres_and_blur_in_pixels_where_they_are_larg
         ("tower motion blur", "px", 9.0, 10.0, 7.0, True),
         ("tower background blur", "px", inf, inf, 6.0, True),
     ]
+    assert not any(c.hard for c in found)

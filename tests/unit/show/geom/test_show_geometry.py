@@ -233,3 +233,10 @@ def test_balls_of_a_text_stand_in_the_plane_that_its_reader_faces() -> None:
     right, ahead, up = upright_axes(text.heading)
     assert away @ ahead == pytest.approx(0.0, abs=1e-12)
     assert (np.ptp(away @ right), np.ptp(away @ up)) == pytest.approx((NARROW_SHARE * 5.0 * 2, 5.0))
+
+
+def test_balls_of_a_model_stand_over_each_other_as_high_as_it_is() -> None:
+    model = Model(("a.ply",), 1.0, (3.0, 4.0, 20.0), 6.0, 0.0)
+    shape = balls(model)
+    assert {ball.centre[:2] for ball in shape} == {(3.0, 4.0)}
+    assert (lowest(shape), highest(shape)) == (17.0, 23.0)

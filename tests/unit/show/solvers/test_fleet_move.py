@@ -21,6 +21,7 @@ from shotc.show.solvers.move import (
     least_piece,
     least_pieces,
     profile,
+    ramps_of,
 )
 from tests.support.fleet_scenes import LIMITS
 
@@ -149,3 +150,10 @@ def test_every_profile_that_is_tried_goes_from_rest_to_rest_and_never_back(easin
     if easing in {"ease-in", "ease-out"}:
         half = shapes[:, shapes.shape[1] // 2]
         assert (half < 0.45).all() if easing == "ease-in" else (half > 0.55).all()
+
+
+@pytest.mark.parametrize("easing", EASINGS)
+def test_both_ramps_of_a_profile_fit_into_its_time(easing: Easing) -> None:
+    for ramps in ramps_of(easing):
+        assert ramps.up + ramps.down <= 1.0 + 1e-12
+        assert 0.0 < min(ramps.up_jerk, ramps.down_jerk) <= max(ramps.up_jerk, ramps.down_jerk) <= 1.0
