@@ -24,7 +24,7 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg
-from shotc.plugin_api.refiner import ideal_places, restrict, surroundings
+from shotc.plugin_api.refiner import NO_HALF_SPACES, ideal_places, restrict, surroundings
 
 pytestmark = pytest.mark.slow
 
@@ -226,16 +226,17 @@ def test_the_control_points_of_every_stage_keep_what_is_asked() -> None:
     assert refined.leg is not None
     around = surroundings(of.path, of.drone, refined.leg.curve.breaks)
     position = refined.leg.curve.channels(0, 1, 2)
-    assert gap_in(of.drone, around, position) is None
+    assert gap_in(of.drone, around, position, NO_HALF_SPACES) is None
     limits = of.drone._replace(limits=of.drone.limits._replace(jerk=0.5))
-    gap = gap_in(limits, around, position)
+    gap = gap_in(limits, around, position, NO_HALF_SPACES)
     assert gap is not None
     assert (gap.what, gap.unit) == ("the limit of jerk", "m/s^3")
     t = np.linspace(position.start, position.end, 20001)
     most = np.linalg.norm(position.derivative(3)(t), axis=1).max()
     assert gap.lack == pytest.approx(most - 0.5, rel=0.02)
     aside = (np.array([0.0, y, 0.0]) for y in (-0.5, 0.5))
-    found = [gap_in(of.drone, around, Piecewise(position.breaks, position.ctrl + by)) for by in aside]
+    moved = (Piecewise(position.breaks, position.ctrl + by) for by in aside)
+    found = [gap_in(of.drone, around, other, NO_HALF_SPACES) for other in moved]
     assert "the clearances" in {gap.what for gap in found if gap is not None}
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from shotc_casadi import lens, problem
 from shotc_casadi.clock import weights
-from shotc_casadi.clock.problem import USUAL_STAGES
+from shotc_casadi.clock.problem import SEVERAL_STAGES, USUAL_STAGES
 from shotc_casadi.refiner import ANG, FRAMING_ONLY, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.timeout import TIMEOUT_S
 
@@ -59,4 +59,4 @@ def test_every_condition_is_there():
 def test_yaw_and_pitch_weigh_the_same_and_rates_nothing():
     assert weights.TURN[:2] == (0.0, 0.0)
     assert weights.TURN[2:5:2] == weights.TURN[3:6:2]
-    assert f"{USUAL_STAGES} stages a film" in README
+    assert f"{USUAL_STAGES} stages a film, {SEVERAL_STAGES} with several subjects" in README

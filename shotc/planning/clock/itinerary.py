@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.ir.drone import Drone
-from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import ClockDeviation, Leg, MovingLeg, Pose, TimedPath
@@ -30,6 +29,7 @@ from shotc.planning.clock.shot import NoMotion, OtherVehicles, timed_shot
 from shotc.planning.clock.starts import (
     SLIGHT_M,
     ClockFailure,
+    Lateness,
     Meets,
     OutsideTrack,
     Reached,
@@ -37,6 +37,8 @@ from shotc.planning.clock.starts import (
     inside,
     outside,
     put_off,
+    straight_lateness,
+    tracks_begin,
 )
 from shotc.planning.path.legs import (
     LegContext,
@@ -71,14 +73,10 @@ class _State(NamedTuple):
 
 
 class _Last(NamedTuple):
-    """The last shot, if it is on its own clock: its start, the state before it, and which of its ends lead
-    aside.
-    """
+    """The last shot, if it is on its own clock, and the state before it."""
 
-    placed: PlacedShot
-    start: float
+    reached: Reached
     before: _State
-    ends_aside: tuple[bool, bool]
 
 
 @dataclass(slots=True)
@@ -132,7 +130,9 @@ class Itinerary:
         before = self._state()
         outcome = add()
         if isinstance(outcome, TooLate) or self.late > LATE_S:
-            tries = ((False, False), (True, False)) if before.last and before.last.ends_aside[1] else ()
+            tries = (
+                ((False, False), (True, False)) if before.last and before.last.reached.ends_aside[1] else ()
+            )
         elif isinstance(outcome, Meets) or self.slack < 0.0:
             tries = (False, True), (True, True)
         else:
@@ -155,12 +155,12 @@ class Itinerary:
         """
         if self.last is None:
             return False
-        placed, start, before, _ = self.last
+        old, before = self.last
         self._restore(before)
         for led in ends:
-            reached = self._reached_as(placed, start, leading_aside(*led))
-            if isinstance(reached, Reached) and reached.transfer.met is None and reached.late <= LATE_S:
-                self._add(placed, reached)
+            new = self._reached_as(old.placed, old.shot.leg.start, leading_aside(*led))
+            if isinstance(new, Reached) and new.transfer.met is None and new.late <= LATE_S:
+                self._add(new)
                 return True
         return False
 
@@ -255,7 +255,7 @@ class Itinerary:
         if fixed is None:
             ready = self.ends.get(shot.timing.after or "", 0.0)
             before = lead_in(self.mission, self.drone, shot, self.clock).seconds
-            ready = max(ready, self.clock + before, self._track_start(placed))
+            ready = max(ready, self.clock + before, tracks_begin(self.mission, placed))
             start = inside(self.mission, self.flight.space, placed, ready)
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
@@ -277,17 +277,17 @@ class Itinerary:
                 reached = freer or reached
             if reached.transfer.met is not None:
                 return Meets(reached.transfer.met, None if freer is None else freer.shot.leg.start)
-        self._add(placed, reached)
+        self._add(reached)
         return None
 
-    def _add(self, placed: PlacedShot, reached: Reached) -> None:
+    def _add(self, reached: Reached) -> None:
         """Add a shot on its own clock and the transfer to it."""
-        self.last = _Last(placed, reached.shot.leg.start, self._state(), reached.ends_aside)
+        self.last = _Last(reached, self._state())
         self._take(reached.transfer)
         leg = turned_leg(reached.shot.leg, end_of(self.legs))
         self.legs.append(leg)
         self.clock = float(leg.curve.end)
-        self.ends[placed.shot.id] = leg.end
+        self.ends[reached.placed.shot.id] = leg.end
         self.deviations += reached.shot.deviations
         self.stats += reached.shot.stats
 
@@ -313,9 +313,8 @@ class Itinerary:
         """
         leg, there = first.shot.leg, first.late <= LATE_S
         path = TimedPath(self.drone.name, (*self.legs, *first.transfer.legs, leg))
-        before = [
-            p for p in flight(self.mission, path, dict(self.ends)).phases if p.end <= leg.start + LATE_S
-        ]
+        flown = flight(self.mission, path, dict(self.ends))
+        before = [phase for phase in flown.phases if phase.end <= leg.start + LATE_S]
         if not there:
             before[-1] = replace(before[-1], end=leg.start + first.late)
         run_up = leg.start - float(leg.curve.start)
@@ -330,11 +329,15 @@ class Itinerary:
         return None
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
-        """Plan a shot for a start, and the transfer to it.
+        """Plan a shot for a start, and the transfer to it, with the ends that suit it best."""
+        reached = self._plainly(placed, start)
+        return self._suited(reached) if isinstance(reached, Reached) else reached
 
-        If every transfer to its first pose comes too near to a target, the shot begins aside or farther off,
-        if that helps. If the run-up or the run-out lacks clearances of transfers, it leads aside. The same if
-        there is no motion: a subject that follows the camera runs into a drone that stops ahead of it.
+    def _plainly(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
+        """Plan a shot for a start, and the transfer to it, with straight ends if there is such a motion.
+
+        A subject that follows the camera runs into a drone that stops ahead of it. Then the shot begins or
+        ends aside.
         """
         short = outside(self.mission, placed, start)
         if short is not None:
@@ -343,8 +346,14 @@ class Itinerary:
         if isinstance(near, NoMotion) and near.missed is None:
             asides = (self._reached_as(placed, start, aside) for aside in ASIDES)
             return next((a for a in asides if isinstance(a, Reached) and a.transfer.met is None), near)
-        if not isinstance(near, Reached):
-            return near
+        return near
+
+    def _suited(self, near: Reached) -> Reached:
+        """Return a shot with other ends, if they are better.
+
+        If every transfer to its first pose comes too near to a target, the shot begins aside or farther off.
+        If the run-up or the run-out lacks clearances of transfers, it leads aside.
+        """
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
         tries: tuple[tuple[EndRequirement, ...], ...]
         if near.transfer.met:
@@ -352,7 +361,7 @@ class Itinerary:
         else:
             tries = (leading_aside(into, out),) if into or out else ()
         for requirements in tries:
-            far = self._reached_as(placed, start, requirements)
+            far = self._reached_as(near.placed, near.shot.leg.start, requirements)
             if isinstance(far, Reached) and far.better(near):
                 return far
         return near
@@ -369,30 +378,19 @@ class Itinerary:
         transfer = self._transfer(shot.leg.pose, placed, curve_start)
         if not isinstance(transfer, Transfer):
             return transfer
-        return Reached(shot, transfer, transfer.end - curve_start, requirements[0].ends_aside)
+        return Reached(placed, shot, transfer, transfer.end - curve_start, requirements[0].ends_aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""
-        return put_off(self.mission, self._reached, placed, start, self._about(placed))
+        reached = put_off(self.mission, self._plainly, placed, start, self._about(placed))
+        return self._suited(reached) if isinstance(reached, Reached) else reached
 
-    def _about(self, placed: PlacedShot) -> Callable[[float], float]:
-        """Return an estimate of the seconds by which a straight flight to a shot is late, as a function of
-        its start.
-        """
-        shot, limits = placed.shot, self.drone.limits
+    def _about(self, placed: PlacedShot) -> Lateness:
+        """Return an estimate of the seconds by which a straight flight to a shot is late."""
         here, ready = np.array(end_of(self.legs)[:3] if self.legs else self.flight.top), self.clock
         if not self.legs:
-            ready += way_time(limits, here - np.array(self.drone.home))
-
-        def about(start: float) -> float:
-            before = lead_in(self.mission, self.drone, shot, start)
-            return ready + way_time(limits, before.rest - here) - (start - before.seconds)
-
-        return about
-
-    def _track_start(self, placed: PlacedShot) -> float:
-        tracks = (self.mission.target(name).track for name in carriers(placed.shot))
-        return max((track.since for track in tracks if track is not None), default=0.0)
+            ready += way_time(self.drone.limits, here - np.array(self.drone.home))
+        return straight_lateness(self.mission, self.drone, placed.shot, here, ready)
 
     def _take(self, transfer: Transfer) -> None:
         self.slack = transfer.slack

@@ -18,7 +18,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.proof import box_gap
-from shotc.geom.solid_arrays.planes import separate
+from shotc.geom.solid_arrays.planes import gaps, separate
 from shotc.geom.solid_arrays.points import support
 from shotc.geom.solids import Solid
 from shotc.geom.track_array import places
@@ -194,23 +194,46 @@ def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> 
     return np.asarray((points - border[:, None] - motion.needs).min(axis=1))
 
 
-def shortfalls(motions: Sequence[LinearMotion], hulls: Array, least: float = -np.inf) -> Array:
+def shortfalls(
+    motions: Sequence[LinearMotion],
+    hulls: Array,
+    least: float = -np.inf,
+    planes: HalfSpaces = NO_HALF_SPACES,
+) -> Array:
     """Return the metres by which the clearances of each piece are not proved; shape (P,), <= 0 is proved.
 
     hulls : shape (P, m, 3), as in ``sides``
     least : smallest value returned, metres; pieces below it are not computed
+    planes : half-spaces that the pieces keep. ``separate`` finds a gap a little narrower than the widest one,
+        so a piece that keeps a half-space exactly may need its normal for the proof.
     """
     worst = np.full(len(hulls), least)
-    seen = [(m.what.part, m.what.clearance + m.deviation_bound, relative_to(m, hulls)) for m in motions]
-    most = [needed - box_gap(relative, part) for part, needed, relative in seen]
-    for k in sorted(range(len(seen)), key=lambda k: -most[k].max(initial=-np.inf)):
-        part, needed, relative = seen[k]
-        # An obstacle is skipped on pieces where its bound shows that another one lacks more.
-        pieces = np.flatnonzero(most[k] > worst)
+    seen = []
+    for motion in motions:
+        part, relative = motion.what.part, relative_to(motion, hulls)
+        needed = motion.what.clearance + motion.deviation_bound
+        # Boxes apart prove a gap; boxes that meet say nothing of the depth.
+        box = box_gap(relative, part)
+        seen.append((part, needed, relative, np.where(box > 0.0, box, -np.inf)))
+    # An obstacle is skipped on pieces where its bound shows that another one lacks more.
+    for part, needed, relative, box in sorted(seen, key=lambda one: -(one[1] - one[3]).max(initial=-np.inf)):
+        pieces = np.flatnonzero(needed - box > worst)
         if len(pieces):
-            _, gap = separate(part, relative[pieces])
+            gap = np.maximum(box[pieces], _plane_gaps(part, relative, pieces, planes))
             worst[pieces] = np.maximum(worst[pieces], needed[pieces] - gap)
     return worst
+
+
+def _plane_gaps(part: Solid, relative: Array, pieces: IntArray, planes: HalfSpaces) -> Array:
+    """Return gaps that planes prove between a solid and some of the pieces, metres, one for each of these.
+
+    relative : all pieces relative to the solid, shape (P, m, 3)
+    """
+    _, gap = separate(part, relative[pieces])
+    rows = np.flatnonzero(np.isin(planes.piece, pieces))
+    piece, normal = planes.piece[rows], planes.normal[rows]
+    np.maximum.at(gap, np.searchsorted(pieces, piece), gaps(part, relative[piece], normal))
+    return gap
 
 
 def relative_to(motion: LinearMotion, hulls: Array) -> Array:

@@ -14,12 +14,15 @@ from math import inf
 
 import numpy as np
 
+from shotc.geom.bernstein import Array
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.phases import Phase
 from shotc.planning.clock.departure import TargetConflict, Transfer
 from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import LESS_SHARE, NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import FreeSpace, bounds_slack
@@ -87,9 +90,11 @@ class TooLate:
 class Reached:
     """A planned shot, the transfer to it, and the drone's delay there in seconds.
 
+    placed : the shot as it is planned; it is shorter than the mission states if its track is
     ends_aside : whether the shot begins, and whether it ends, away from moving obstacles
     """
 
+    placed: PlacedShot
     shot: TimedShot
     transfer: Transfer
     late: float
@@ -112,6 +117,26 @@ Lateness = Callable[[float], float]
 """The drone's delay in seconds for a start."""
 Reach = Callable[[PlacedShot, float], Reached | ClockFailure]
 """Plans a shot for a start, and the transfer to it."""
+
+
+def straight_lateness(mission: MissionIR, drone: Drone, shot: Shot, here: Array, ready: float) -> Lateness:
+    """Return the delay of a straight flight to a shot.
+
+    here : where the flight begins, W, metres, shape (3,)
+    ready : when it begins, mission time, seconds
+    """
+
+    def late(start: float) -> float:
+        before = lead_in(mission, drone, shot, start)
+        return ready + way_time(drone.limits, before.rest - here) - (start - before.seconds)
+
+    return late
+
+
+def tracks_begin(mission: MissionIR, placed: PlacedShot) -> float:
+    """Return the mission time from which on all tracks that a shot depends on are known, seconds."""
+    tracks = (mission.target(name).track for name in carriers(placed.shot))
+    return max((track.since for track in tracks if track is not None), default=0.0)
 
 
 def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrack | None:

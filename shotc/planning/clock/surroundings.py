@@ -79,12 +79,13 @@ class Surroundings:
         borders = (offset + np.minimum(slack, 0.0))[nearest]
         return beside(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
 
-    def lacking(self, hulls: Array) -> Array:
+    def lacking(self, hulls: Array, planes: HalfSpaces = NO_HALF_SPACES) -> Array:
         """Return the metres by which the clearances of pieces are not proved; shape (P,), 0 is proved.
 
         hulls : shape (P, 6, 3), Bernstein control points
+        planes : half-spaces that the pieces keep, as in ``shortfalls``
         """
-        return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls, 0.0))
+        return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls, 0.0, planes))
 
     def half_spaces(self, hulls: Array, reach: float, share: float) -> HalfSpaces:
         """Return half-spaces between pieces and the obstacles near them.

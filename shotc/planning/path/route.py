@@ -126,6 +126,8 @@ class _Graph:
         free[:2] = True
         self.nodes: Array = nodes[free]
         self.touched = np.zeros(len(scene.grown), dtype=bool)
+        self.from_start = [self._near_end(j, 0) for j in range(len(scene.grown))]
+        self.to_end = [self._near_end(j, 1) for j in range(len(scene.grown))]
 
     def search(self) -> tuple[Array | None, Mask]:
         """Return the cheapest route, and which obstacles blocked an edge."""
@@ -168,9 +170,11 @@ class _Graph:
             if g.top < FAR_M:
                 price = price + OVERFLIGHT_PRICE * over * stride
             hit = self._hits(j, a, b, enter, leave)
-            exact = self._close(j, i, others)
-            if exact.any():
-                hit[exact] = self._near(j, a[exact], b[exact])
+            from_start, to_end = self.from_start[j], self.to_end[j]
+            if i == 0 and from_start is not None:
+                hit = from_start[others]
+            elif to_end is not None:
+                hit[others == 1] = to_end[i]
             self.touched[j] |= bool(hit.any())
             price[hit] = np.inf
         return np.asarray(price)
@@ -181,14 +185,14 @@ class _Graph:
         low, high = _clip_heights(a[:, 2], b[:, 2] - a[:, 2], g.bottom - reach, g.top + reach)
         return np.asarray(np.maximum(enter, low) < np.minimum(leave, high) - 1e-9)
 
-    def _close(self, j: int, i: int, others: IntArray) -> Mask:
-        """Return which edges start or end at an end of the route that lies inside the grown prism."""
-        inside = _inside(self.scene.grown[j], self.nodes[:2], self.scene.reach(j) + 1e-6)
-        if i <= 1 and inside[i]:
-            return np.ones(len(others), dtype=np.bool_)
-        return np.asarray((others == 1) & inside[1])
-
-    def _near(self, j: int, a: Array, b: Array) -> Mask:
+    def _near_end(self, j: int, end: int) -> Mask | None:
+        """Return which edges between an end of the route, 0 or 1, and each node come too near to obstacle j;
+        None if the end lies outside of the grown prism, so that this decides.
+        """
+        place = self.nodes[end : end + 1]
+        if not _inside(self.scene.grown[j], place, self.scene.reach(j) + 1e-6)[0]:
+            return None
+        a, b = np.broadcast_to(place, self.nodes.shape), self.nodes
         o = self.scene.space.obstacles[j]
         own = np.minimum(distances(o.part, a), distances(o.part, b)) - o.clearance
         need = o.clearance + np.minimum(self.scene.share * MARGIN_M, 0.5 * np.maximum(own, 0.0))

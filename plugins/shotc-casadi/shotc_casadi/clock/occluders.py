@@ -32,7 +32,7 @@ from shotc_casadi.clock.symbols import SIGHT_LINE_PARAMETERS
 ENCLOSES = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
 WIDER_RATIO = 1.2  # for balls and infinite solids: wider, so that they count before they hide
 KHACHIYAN_STEPS = 200  # of Khachiyan's method
-NEAR_DV = 3.0  # of -d_v: lines of sight within twice the ellipsoid count
+NEAR_DV = 8.0  # of -d_v: lines of sight within three times the ellipsoid count
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # possible numbers of ellipsoids, so that few programmes are built
 NO_OCCLUDER_DV = -1e2  # of d_v, where there is no ellipsoid
 INNER_SHARE = 0.98  # of a share of the distance, because of the motion between nodes

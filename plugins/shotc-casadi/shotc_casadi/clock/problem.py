@@ -18,6 +18,7 @@ from shotc_casadi.clock.symbols import CONTROL_POINTS, FIELDS, PLACE_STATES, PLA
 from shotc_casadi.extents import EXTENT_PARAMETERS
 
 USUAL_STAGES = 100  # of the film, if its pieces allow
+SEVERAL_STAGES = 60  # the same with several subjects, whose pictures make a stage ten times as costly
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # possible numbers of half-spaces, so that few programmes are built
 FREE_M = 1.0  # metres of slack of an unused half-space: a constraint needs an interior
 WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
@@ -85,11 +86,12 @@ class ClockProblem:
 
 
 def breaks_of(subject: ClockSubject) -> Array:
-    """Return the times of the nodes: the guide's breaks, subdivided to about USUAL_STAGES in the film."""
+    """Return the times of the nodes: the guide's breaks, subdivided to the usual number in the film."""
     breaks, leg = subject.leg.curve.breaks, subject.leg
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     filmed = (middle > leg.start) & (middle < leg.end)
-    parts = max(1, round(USUAL_STAGES / max(1, int(filmed.sum()))))
+    usual = SEVERAL_STAGES if subject.together else USUAL_STAGES
+    parts = max(1, round(usual / max(1, int(filmed.sum()))))
     counts = np.where(filmed, parts, max(1, parts // 2))
     cut = [
         np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], counts, strict=True)

@@ -13,6 +13,7 @@ from shotc.plugin_api.refiner import (
     CameraTask,
     ClockLeg,
     Drone,
+    HalfSpaces,
     Surroundings,
     aim_at,
     aims_at,
@@ -35,9 +36,14 @@ class UnprovedMoment(NamedTuple):
     unit: str
 
 
-def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> UnprovedMoment | None:
-    """Return the worst of what the hulls of a motion do not prove, None if they prove all."""
-    lack = around.lacking(position.ctrl)
+def gap_in(
+    drone: Drone, around: Surroundings, position: Piecewise, planes: HalfSpaces
+) -> UnprovedMoment | None:
+    """Return the worst of what the hulls of a motion do not prove, None if they prove all.
+
+    planes : half-spaces that the motion was planned to keep
+    """
+    lack = around.lacking(position.ctrl, planes)
     k = int(lack.argmax())
     if lack[k] > PROVED_M:
         return UnprovedMoment(float(position.breaks[k]), "the clearances", float(lack[k]), "m")

@@ -186,7 +186,7 @@ def _next(shot: _Shot, now: _Round) -> _Round:
     if solution.status != "solved":
         return _unsolved(shot, after)
     curve = curve_of(shot.subject, shot.breaks, solution)
-    gap = gap_in(shot.subject.drone, shot.around, curve)
+    gap = gap_in(shot.subject.drone, shot.around, curve, planes)
     start = (solution.states, solution.inputs)
     after = replace(after, first=now.first or failed, gap=gap, course=curve, start=start)
     if gap is not None:

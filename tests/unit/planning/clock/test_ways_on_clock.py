@@ -191,7 +191,7 @@ class Chaser:
         self.starts.append(start)
         made = type("Shot", (), {"leg": type("Leg", (), {"start": start})()})()
         gained = (1.0 - self.slope) * max(0.0, start - self.idle)
-        return Reached(made, None, self.offset - gained, (False, False))  # type: ignore[arg-type]
+        return Reached(placed, made, None, self.offset - gained, (False, False))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.3, 0.6, 0.8])
