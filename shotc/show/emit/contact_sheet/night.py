@@ -34,10 +34,12 @@ def night(flights: Sequence[FleetTrajectory], time: float, behind: Scenery) -> N
     """
     at = np.concatenate([places(flight.breaks, flight.coef, np.array([time]))[:, 0] for flight in flights])
     colors = np.concatenate([light_colors(flight, np.array([time]))[:, 0] for flight in flights])
-    visible = ~behind.hides(at)
+    visible, lit = ~behind.hides(at), colors.any(axis=1)
     width = behind.size[0]
-    light = _lights(at[visible], colors[visible], behind)
+    light = _lights(at[visible & lit], colors[visible & lit], behind)
     light += BLOOM * gaussian_filter(light, (SPREAD * width, SPREAD * width, 0.0), truncate=3.0)
+    dark = _lights(at[visible & ~lit], colors[visible & ~lit], behind)
+    light += np.minimum(dark, UNLIT_GREY_LEVEL / 255.0)  # many of them shine no more than one
     picture = 1.0 - (1.0 - behind.colors) * np.exp(-light)
     return np.asarray(np.round(255.0 * picture), dtype=np.uint8)
 

@@ -18,7 +18,7 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet import EMITTER
 from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
-from shotc.show.emit.contact_sheet.night import hidden_lights, night
+from shotc.show.emit.contact_sheet.night import UNLIT_GREY_LEVEL, hidden_lights, night
 from shotc.show.emit.contact_sheet.page import MAP, MARGIN, WIDTH
 from shotc.show.emit.contact_sheet.scenery import Scenery, backdrop, scenery
 from shotc.show.emit.contact_sheet.stands import anchors, outlines
@@ -246,6 +246,18 @@ def test_a_picture_counts_the_lights_that_shine() -> None:
     with texts() as found:
         EMITTER.emit(replace(plan, trajectory=replace(plan.trajectory, fleets=(dark,))))
     assert sum(t.text.endswith(f"{len(flight.coef) - 17} of {len(flight.coef)} lights") for t in found) == 2
+
+
+@pytest.mark.slow
+def test_many_drones_whose_lights_are_off_are_no_brighter_than_one() -> None:
+    plan = show_flights.plan()
+    flight = plan.trajectory.fleets[0]
+    seen = audience(plan, show_flights.display(), ASPECT)
+    behind = Scenery(seen, np.zeros((SIZE[1], SIZE[0], 3)), np.full((SIZE[1], SIZE[0]), np.inf))
+    one = flight.coef[:1].repeat(len(flight.coef), axis=0)
+    off = replace(flight, coef=one, lights=replace(flight.lights, colors=np.zeros_like(flight.lights.colors)))
+    brightest = night((off,), 27.5, behind).max()
+    assert 0 < brightest <= UNLIT_GREY_LEVEL
 
 
 @pytest.mark.slow
