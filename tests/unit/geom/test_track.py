@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import atan2, pi
 
 import pytest
 
@@ -34,3 +34,11 @@ def track(*points: tuple[float, float], headings: tuple[float, ...] = (), after=
 )
 def test_straight_is_what_goes_one_way_and_faces_that_way(way: Track, straight: bool) -> None:
     assert way.straight is straight
+
+
+@pytest.mark.parametrize("way", [(0.0, 10.0), (-7.0, 0.0)])
+def test_a_target_that_stands_looks_where_it_went_last_or_will_go_first(way: tuple[float, float]) -> None:
+    x, y = way
+    stands = Track((0.0, 20.0, 40.0, 60.0), ((0.0, 0.0, 5.0), (0.0, 0.0, 5.0), (x, y, 5.0), (x, y, 5.0)))
+    for time in (5.0, 30.0, 55.0):
+        assert stands.heading(time) == pytest.approx(atan2(y, x))

@@ -135,6 +135,14 @@ def test_no_limit_is_broken_at_any_instant_of_a_random_path(
     assert acceleration < 1e-6
 
 
+def test_where_the_jerk_binds_the_programme_keeps_it_without_much_of_a_stretch_afterwards():
+    ceiling = replace(CEILING, jerk=0.3 * CEILING.jerk)
+    path = smooth(0, size=3.0)
+    move = time_move(path, (0.0, path.end), ceiling)
+    assert 0.98 < uses(move.curve, ceiling)["jerk"] <= 1.0
+    assert move.scale < 1.03
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(

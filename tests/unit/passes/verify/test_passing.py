@@ -38,10 +38,10 @@ def test_each_rule_that_a_way_breaks_is_accepted_at_the_least_distance_of_its_pa
 
 def test_the_pass_that_lacks_most_is_told_first(monkeypatch: pytest.MonkeyPatch) -> None:
     way = TransitInterval(0.0, 9.0, "b")
-    lacks = {"mast": 1.0, "house": 3.0, "tree": 2.0}
-    passes = {name: ClosestPass(name, (name,), way, 1.0, 9.0 - lack, 9.0) for name, lack in lacks.items()}
+    needs = {"mast": (9.0, 1.0), "house": (5.0, 3.0), "tree": (20.0, 2.5)}
+    passes = {name: ClosestPass(name, (name,), way, 1.0, n - lack, n) for name, (n, lack) in needs.items()}
     broken = {"holds": False, "hard": False, "subject": "cam"}
-    claims = tuple(SimpleNamespace(constraint=f"{name}{ENDING}", **broken) for name in lacks)
+    claims = tuple(SimpleNamespace(constraint=f"{name}{ENDING}", **broken) for name in needs)
     monkeypatch.setattr(passing, "_passes", lambda _, claim: [passes[claim.constraint.removesuffix(ENDING)]])
     monkeypatch.setattr(passing, "_diagnostic", lambda _, together: [one.name for _, one in together])
     (told,) = passing.reported_passes(SimpleNamespace(), claims)  # type: ignore[arg-type]

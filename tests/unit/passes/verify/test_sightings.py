@@ -68,6 +68,7 @@ def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
     assert lines(first) == [8]
     assert first.notes[0].startswith("first at t = 40.000 s, 0.000 s into the shot, in 100 % of its frames")
     assert "60.0 m from the camera; two is in its shot `see` then" in first.notes[1]
+    assert first.notes[2] == "nothing worse happens between samples"
     assert "strength: off" in first.help
 
 

@@ -73,6 +73,17 @@ def test_a_transition_and_a_hold_are_no_shorter_and_a_transition_no_longer(by: f
     assert claim(moved, "lack of hold").worst == pytest.approx(max(by, 0.0))
 
 
+@pytest.mark.parametrize(("moment", "off"), [(17.0, 1.0), (15.0, 1.0), (16.0, 0.0)])
+def test_a_picture_with_a_moment_is_there_then_and_neither_earlier_nor_later(
+    moment: float, off: float
+) -> None:
+    first, second = display().pictures
+    asked = display()._replace(pictures=(first._replace(at=moment), second))
+    found = claim(show(mission(displays=(asked,))), "error of moment")
+    assert found.worst == pytest.approx(off)
+    assert found.holds is (off == 0.0)
+
+
 @pytest.mark.parametrize("by", [-0.5, 0.5])
 def test_a_display_starts_and_lasts_as_asked_from_both_sides(by: float) -> None:
     for timing, name in (
