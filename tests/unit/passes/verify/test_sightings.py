@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from functools import cache
 from math import atan2, pi, radians
 from pathlib import Path
@@ -70,6 +71,17 @@ def test_a_silent_mission_prefers_and_warns_of_either_direction() -> None:
     assert "60.0 m from the camera; two is in its shot `see` then" in first.notes[1]
     assert first.notes[2] == "nothing worse happens between samples"
     assert "strength: off" in first.help
+
+
+def test_the_heading_that_is_proposed_is_north_turned_by_as_much_as_is_told() -> None:
+    (first, _) = told(planned(FACING))
+    found = re.search(
+        r"turn the camera of `look` (\d+) deg to the (left|right), by `heading: (\d+) deg`", first.help
+    )
+    assert found is not None, first.help
+    by = int(found[1]) if found[2] == "right" else -int(found[1])
+    assert int(found[3]) == by % 360
+    assert 30 < abs(by) < 45  # half of its field of view, and a little more
 
 
 def test_all_who_are_preferred_not_to_be_seen_in_a_shot_are_told_in_one() -> None:

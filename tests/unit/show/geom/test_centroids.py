@@ -62,13 +62,13 @@ def test_every_point_is_of_its_nearest_goal() -> None:
     assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
 
 
-@pytest.mark.parametrize("jump", [3.0, 9.0, 30.0])
-def test_a_goal_that_jumps_from_afar_takes_the_points_that_it_comes_to(jump: float) -> None:
-    """A row of goals, of which the last one moves past all that are not its neighbours."""
+@pytest.mark.parametrize(("goal", "way"), [(27, -6.5), (39, -3.5), (39, -9.5), (39, -30.5)])
+def test_a_goal_that_jumps_from_afar_takes_the_points_that_it_comes_to(goal: int, way: float) -> None:
+    """A row of goals: the one that moves is no neighbour of those where it comes to."""
     goals = np.column_stack([np.arange(40.0), np.zeros((40, 2))])
-    points = goals + np.array([0.3, 0.2, 0.0])
+    points = goals + np.array([0.45, 0.0, 0.0])
     near, step = _Nearest(points, goals), np.zeros((40, 3))
-    step[-1, 0] = -jump - 0.5
+    step[goal, 0] = way
     moved = near.follow(goals, step)
     distance = np.linalg.norm(points - moved[near.in_order()], axis=1)
     assert distance == pytest.approx(cKDTree(moved).query(points)[0])
