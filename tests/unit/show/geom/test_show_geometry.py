@@ -149,6 +149,12 @@ def test_the_densest_packing_never_beats_the_bound(
     assert len(held) <= most_drones(picture(source), apart)
 
 
+def test_the_bound_of_a_large_ball_is_little_above_the_densest_packing() -> None:
+    ball = picture(Sphere(CENTRE, 100.0))
+    densest = sqrt(2.0) * 4.0 / 3.0 * pi * 100.0**3
+    assert densest < most_drones(ball, Apart("ellipsoid", 1.0, 1.0, 0.0)) < 1.1 * densest
+
+
 @pytest.mark.slow
 @given(st.floats(1.0, 30.0), st.integers(2, 400))
 def test_points_spread_on_a_sphere_never_beat_the_bound(radius: float, count: int) -> None:
