@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
+from typing import Any, get_args
 
 import pytest
 
@@ -19,6 +21,9 @@ from shotc.ir.path import ClockDeviation, PathDeviation
 from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
+from shotc.passes.verify.report import ENDING, RULES, SOFT, STARTING
+from shotc.passes.verify.sight import OUT_OF_PICTURE
+from shotc.planfile.codec import hints
 from shotc.planfile.write import document
 from shotc.simulation.clearance import ClosestApproach
 from shotc.simulation.conditions import Conditions
@@ -49,6 +54,59 @@ RECORDS = (
     PlacedSubject,
     FleetTrajectory,
 )
+OF_PLANS = PAGE.split("\n## plan.json\n")[1]
+TICKED = set(re.findall(r"`([^`]+)`", OF_PLANS))
+WRITTEN_OTHERWISE = {"source_sha256", "ctrl"}
+"""Fields under another name in a plan: ``source.sha256`` and the ``control`` of a curve."""
+KEYS_BESIDE_RECORDS = {"mission_sha256", "transit_clearance"}
+"""A key of the document itself, and one of the mission's text."""
+
+
+def records_of(*kinds: Any) -> Iterator[tuple[str, str]]:
+    """Yield every record that a plan may hold below these, with each of its fields that a plan stores."""
+    found, rest = set(), list(kinds)
+    while rest:
+        kind = rest.pop()
+        rest += get_args(kind)
+        if kind in found or not (isinstance(kind, type) and field_names(kind)):
+            continue
+        found.add(kind)
+        for name, held in hints(kind).items():
+            if not (kind is MissionIR and name in ELSEWHERE_IN_PLANS):
+                yield kind.__name__, name
+                rest.append(held)
+
+
+def claims_explained() -> Iterator[str]:
+    """Yield the names of the table of claims."""
+    table = OF_PLANS.partition("What the claims measure:")[2].partition("\n\n**")[0]
+    for row in re.findall(r"^\| (`.*?) \|", table, flags=re.MULTILINE):
+        yield from re.findall(r"`([^`]+)`", row)
+
+
+def test_every_field_of_every_record_of_a_plan_is_explained():
+    parts = set(records_of(MissionIR, *RECORDS))
+    assert ("TransitClearance", "filmed_required") in parts
+    assert {(of, name) for of, name in parts if name not in TICKED | WRITTEN_OTHERWISE} == set()
+
+
+def test_no_field_is_explained_that_no_plan_holds():
+    held = {name for _, name in records_of(MissionIR, *RECORDS)} | KEYS_BESIDE_RECORDS
+    assert {name for name in TICKED if re.fullmatch("[a-z]+(_[a-z0-9]+)+", name)} - held == set()
+
+
+def test_every_claim_is_explained():
+    explained = list(claims_explained())
+    assert [name for name in RULES if not {name, re.sub("(pitch|yaw) .*", "...", name)} & {*explained}] == []
+    assert [start for start in STARTING if not any(name.startswith(start) for name in explained)] == []
+    ends = (*ENDING, *SOFT, OUT_OF_PICTURE)
+    assert [end for end in ends if not any(name.endswith(end) for name in explained)] == []
+
+
+def test_no_claim_is_explained_that_no_verdict_has():
+    plain = [name for name in claims_explained() if not re.search("[A-Z]|[.]", name)]
+    assert len(plain) > 30
+    assert [name for name in plain if name not in RULES and not name.startswith(tuple(STARTING))] == []
 
 
 def test_every_column_of_the_tables_is_explained():
