@@ -9,6 +9,9 @@ It is below the tolerance of checks, a micrometre or microsecond, so the number 
 them.
 """
 
+MOST_DECIMALS = 9
+"""Decimals at which a value that is still not below its limit counts as the limit."""
+
 
 def up(value: float, digits: int = 2) -> float:
     """Return the least number with so many decimals that is not below a value."""
@@ -28,6 +31,16 @@ def at_least(value: float, digits: int = 2) -> str:
 def at_most(value: float, digits: int = 2) -> str:
     """Return a value rounded down as text, with all its decimals."""
     return f"{down(value, digits):.{max(digits, 0)}f}"
+
+
+def nearer_than(value: float, limit: float, digits: int = 2) -> str:
+    """Return a value rounded up as text, with enough decimals to stay below a limit that it is below.
+
+    So two things come within the distance that is told, and it is told to be too small.
+    """
+    while value < limit <= up(value, digits) and digits < MOST_DECIMALS:
+        digits += 1
+    return at_least(value, digits)
 
 
 def away(value: float, *, upper: bool, digits: int) -> float:

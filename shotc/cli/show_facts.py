@@ -59,7 +59,8 @@ def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         if own:
             count, high = (float(known[name.removesuffix("levels") + key]) for key in ("levels", "highest m"))
             levels = "one level" if count == 1 else f"{count:.0f} levels"
-            yield f"drones of {own[1]} return to their own pads on {levels}, up to {high:.1f} m above them"
+            above = f"up to {at_least(high, 1)} m above them"
+            yield f"drones of {own[1]} return to their own pads on {levels}, {above}"
         fleet = re.fullmatch(r"fleet (.+) take-off layers", name)
         if fleet:
             at = name.removesuffix("layers")
@@ -80,7 +81,7 @@ def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
             yield f"{value:.0f} {moves} of {arcs[1]} on arcs: its drones stand too near for straight lines"
         lifted = re.fullmatch(r"fleet (.+) lifted m", name)
         if lifted:
-            yield f"{lifted[1]} rises by up to {value:.1f} m over what is in its way"
+            yield f"{lifted[1]} rises by up to {at_least(float(value), 1)} m over what is in its way"
         if lattice:
             where = f"picture {lattice[2]} of {lattice[1]}"
             yield f"{where} is a lattice of {value:.0f} lights: spread evenly, they have no room"

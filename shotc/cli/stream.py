@@ -14,6 +14,7 @@ from shotc.cli.console import known
 from shotc.cli.plans import PlanPath, prove
 from shotc.diag.registry import has_errors
 from shotc.plugins import not_installed
+from shotc.rounding import at_least
 from shotc.stream.beginning import clock_time, moment
 from shotc.stream.clock import WallClock
 from shotc.stream.endings import as_interrupts
@@ -170,7 +171,7 @@ def _outcome(flown: FlightResult, pilots: Sequence[Pilot]) -> str:
         (
             pilot.name,
             f"{pilot.sent} setpoints",
-            f"at most {pilot.farthest:.2f} m from the plan",
+            f"at most {at_least(pilot.farthest)} m from the plan",
             _end(flown, pilot),
         )
         for pilot in pilots

@@ -25,7 +25,7 @@ from shotc.passes.verify.energy import ENERGY, J_PER_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.planning.path.unwrapping import TURNS
-from shotc.rounding import as_minutes, at_least, at_most, away
+from shotc.rounding import as_minutes, at_least, at_most, away, plain
 
 WIDTH_CHARACTERS = 100
 GLUE = "\N{NO-BREAK SPACE}"
@@ -290,7 +290,7 @@ def _pictures(plan: VerifiedIR) -> str:
     if rules.visibility == "off":
         return "pictures are not judged"
     angle = rules.half_angle
-    where = "in the picture" if angle is None else f"within {degrees(angle):.3g} deg of the axis"
+    where = "in the picture" if angle is None else f"within {plain(degrees(angle), 6)} deg of the axis"
     seen = [
         f"{c.constraint.removesuffix(OUT_OF_PICTURE)} is {where} of {c.subject} (shot {c.shot})"
         for c in plan.certificate

@@ -20,6 +20,7 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.promises import PROMISES, broken_promise, promise_help
 from shotc.passes.verify.report import limit_label, rule_of, side_of, state_of
 from shotc.passes.verify.sight import OUT_OF_PICTURE
+from shotc.rounding import at_least, plain, up
 
 SEEN = "V025"
 """Code of a drone in another one's picture."""
@@ -123,9 +124,10 @@ def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator
         step = max(float(np.diff(rows.time).max()) for rows in tables)
         straight = any(rows.velocity is None for rows in tables)
         how = "straight from row to row" if straight else "on cubics by the places and velocities of its rows"
-        yield f"{name}: {files}, {count}rows up to {step:.3g} s apart, flown {how}"
+        yield f"{name}: {files}, {count}rows up to {plain(up(step, 3))} s apart, flown {how}"
         between = max(flight.leeway.between for flight in flights)
-        yield f"{name}: between its rows a flight within its limits is within {measure(between, 'm')} of that"
+        off = at_least(between, 3)
+        yield f"{name}: between its rows a flight within its limits is within {off} m of that"
         if straight:
             yield f"{name}: not judged: the acceleration, for want of the columns {', '.join(VELOCITY)}"
 

@@ -27,7 +27,7 @@ from shotc.importers.mission import Imported
 from shotc.importers.names import safe
 from shotc.importers.notes import Notes, assumption_diagnostics, label
 from shotc.importers.xml_tree import Node
-from shotc.rounding import down, plain
+from shotc.rounding import at_most, down, nearer_than, plain
 from shotc.source.file import SourceFile
 from shotc.spec.presets import PRESETS
 
@@ -139,13 +139,14 @@ def _separation(show: _Show, notes: Notes) -> float:
     on_pads = inf
     if float(show.starts[:, 2].max()) <= ON_GROUND_M:
         on_pads = float(cKDTree(show.starts).query(show.starts, k=2)[0][:, 1].min())
-    near = down(min(on_pads, float(apart[first])), 2)
-    if near >= SEPARATION_M:
+    least = min(on_pads, float(apart[first]))
+    if down(least) >= SEPARATION_M:
         return SEPARATION_M
-    message = f"tracks begin {near:.2f} m apart"
+    message = f"tracks begin {at_most(least)} m apart"
     if on_pads > apart[first]:
-        message = f"two drones come within {near:.2f} m of each other at {show.times[first]:.1f} s"
-    taken = max(near, 2.0 * PRESETS[MODEL].radius)
+        reached = f"{nearer_than(least, SEPARATION_M)} m of each other"
+        message = f"two drones come within {reached} at {show.times[first]:.1f} s"
+    taken = max(down(least), 2.0 * PRESETS[MODEL].radius)
     notes.assume(
         WHOLE,
         f"{message}, and {SEPARATION_M:.1f} m are usual",

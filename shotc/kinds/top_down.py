@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Beside, Composition
 from shotc.ir.target import Target
 from shotc.kinds.base import STILL_S, Expansion, Kind, Scene
-from shotc.rounding import at_most
+from shotc.rounding import at_least, at_most
 from shotc.spec.fields import CameraAltitude, Name, Velocity
 from shotc.spec.shot import ShotBase
 
@@ -81,8 +81,8 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
         most = _mean_speed(speed, limits.acceleration, duration)
         if speed > 0 and drift > most:  # another check reports wind that leaves no speed
             notes = [
-                f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
-                f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most"
+                f"from rest to rest in {duration:.1f} s, at up to {at_least(speed)} m/s and "
+                f"{limits.acceleration:.2f} m/s^2, it averages {at_least(most)} m/s at most"
             ]
             seen = _seen(shot, scene, target) / duration if direction == "across" else most
             if seen < most:

@@ -17,6 +17,7 @@ from shotc.ir.path import CHANNELS
 from shotc.ir.power import Power
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.planfile.fleet_sanity import fleet_faults
+from shotc.rounding import plain, up
 from shotc.units import LARGEST
 
 MOST_TICKS = 20_000_000
@@ -81,7 +82,7 @@ def _motion(track: Track) -> str:
     rows = zip(pairwise(track.times), pairwise(track.points), strict=True)
     fastest = max([hypot(*track.after), *(dist(p, q) / (t - s) for (s, t), (p, q) in rows)])
     if fastest > FASTEST:
-        return f"it moves at up to {fastest:.4g} m/s, faster than {FASTEST:g} m/s"
+        return f"it moves at up to {plain(up(fastest, 2))} m/s, faster than {FASTEST:g} m/s"
     return ""
 
 

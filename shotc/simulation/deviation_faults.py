@@ -182,7 +182,7 @@ def _circumstances(led: Peak, run: Run, drone: int) -> Iterator[str]:
     yield f"worst in run {run.number}, at {led.time:.1f} s"
     near = run.courses[drone].nearest
     if near is not None:
-        yield f"there its body comes within {at_most(near.distance)} m of {near.to}, at {near.time:.1f} s"
+        yield f"there its body comes within {at_least(near.distance)} m of {near.to}, at {near.time:.1f} s"
 
 
 def _receivers(gps: Gps) -> str:

@@ -14,7 +14,7 @@ from shotc.emit.waypoints.timing import WaysTooNear
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.rounding import at_least
+from shotc.rounding import at_least, nearer_than
 
 LEAST_CUT_M = 0.05  # metres of missing clearance, below which there is no warning
 
@@ -83,8 +83,8 @@ def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
         f"the mission files of {' and '.join(meeting.names)} do not carry the timing that keeps them apart",
         tuple(mission.origins.key(mission.drone(name).path) for name in meeting.names),
         (
-            f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
-            f" {mission.rules.separation:.1f} m",
+            f"their ways come within {nearer_than(meeting.distance, mission.rules.separation)} m of each"
+            f" other, the separation is {mission.rules.separation:.2f} m",
             "an autopilot starts its file on command, and flies at mean speeds",
         ),
         "fly them by one clock with `shotc stream`, or give each drone air of its own by zones or heights",

@@ -25,6 +25,7 @@ from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
+from shotc.rounding import at_least
 
 MOST_NAMED_PADS = 500
 """Most pads of a fleet that get a placemark each. A larger fleet gets one placemark for all pads, because the
@@ -109,7 +110,7 @@ def _mark(folder: Element, name: str, style: str = "", about: str = "") -> Eleme
 
 def _volumes(folder: Element, origin: GeoOrigin, site: Volumes) -> None:
     flight, margin = site.flight, site.contingency
-    high = f"up to {flight.top - site.ground:.1f} m over {site.base}; the hull of all flights"
+    high = f"up to {at_least(flight.top - site.ground, 1)} m over {site.base}; the hull of all flights"
     _polygon(_mark(folder, "flight geography", "flight", high), origin, flight)
     wide = f"{site.across:.1f} m across and {site.upright:.1f} m upright about the flight geography"
     _polygon(_mark(folder, "contingency volume", "contingency", wide), origin, margin)

@@ -24,7 +24,7 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import HFOV
 from shotc.ir.source import TAKES, ZOOM_COMMANDS, Autopilot
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.rounding import at_least, exposure
+from shotc.rounding import at_least, exposure, nearer_than
 
 LEAST_ZOOM_RAD = np.radians(0.1)
 PROMISED = "E122"  # for a zoom that is not carried although the shot promises its framing
@@ -261,8 +261,8 @@ def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> D
         f"no file is written for {refused}: timing alone keeps {' and '.join(meeting.names)} apart",
         tuple(mission.origins.key(mission.drone(name).path) for name in meeting.names),
         (
-            f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
-            f" {mission.rules.separation:.1f} m",
+            f"their ways come within {nearer_than(meeting.distance, mission.rules.separation)} m of each"
+            f" other, the separation is {mission.rules.separation:.2f} m",
             "such a file is flown from whenever its pilot starts it",
         ),
         "give each drone air of its own by zones or heights, or film with one drone",
@@ -279,7 +279,7 @@ def notes(drone: Drone, files: list[str], count: int, error: Error, models: int)
     return [
         f"{text}, adds at most {at_least(error.screen, 3)} of the screen (shot {error.shot}, t ="
         f" {error.time:.1f} s) and {at_least(mean, 3)} on average under all of {models} flight models; films"
-        f" {error.filmed:.0f} s at most where the plan films {error.planned:.0f} s{zoomed_to(error)}"
+        f" {at_least(error.filmed, 0)} s at most where the plan films {error.planned:.0f} s{zoomed_to(error)}"
     ]
 
 

@@ -17,6 +17,7 @@ from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.rounding import plain, up
 
 MOST_NAMED = 3
 """Most buildings, or parts of a scene, that are named: those that hide the most."""
@@ -41,7 +42,7 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     for what, share in sorted(shares, key=lambda by: -by[1].sum()):
         if share.any():
             often = float((share > 1.0 - HALF_SHARE).mean())
-            most = f"{what} hides up to {100 * share.max():.3g} % of it"
+            most = f"{what} hides up to {plain(up(100 * float(share.max()), 1))} % of it"
             yield f"{most}, and more than half in {100 * often:.3g} % of the frames"
 
 

@@ -19,7 +19,7 @@ from shotc.ir.sharpness import sharpness
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.framing import Filmed, FramingSamples
-from shotc.rounding import at_least, exposure
+from shotc.rounding import at_least, exposure, plain
 from shotc.spec.exposure import LEAST_S, MOST_F
 
 DISC, MOTION, BACKGROUND = " blur disc", " motion blur", " background blur"
@@ -138,7 +138,7 @@ def _blurred(mission: MissionIR, each: Claim) -> Diagnostic:
         (
             f"worst at t = {each.time or 0.0:.3f} s: it moves {at_least(each.worst, 1)} px of {optics.pixels}"
             f" while the shutter is open for {exposure(optics.shutter)}",
-            f"up to {each.limit:.3g} px cause no warning",
+            f"up to {plain(each.limit)} px cause no warning",
         ),
         f"{faster}write `allow: [{BLURRED}]` in the shot",
     )

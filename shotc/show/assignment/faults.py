@@ -17,7 +17,7 @@ from shotc.ir.show import Display, Fleet, Picture, Wave, drone_names
 from shotc.kinds.files import FileFault
 from shotc.planning.clearances import ROUNDING_M
 from shotc.planning.take_off import MOST_LAYERS
-from shotc.rounding import at_least, plain
+from shotc.rounding import at_least, nearer_than, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.goals.room import RoomLack
 from shotc.show.labels import moments, transition_key, transition_label, wave_key
@@ -63,7 +63,7 @@ def too_fast(
             origins.value((*fleet.path, "limits", least.limit), "what binds"),
         ),
         (
-            f"`{name}` has {distance:.1f} m to go, and its {least.limit} is at most {limit:.2f} "
+            f"`{name}` has {distance:.1f} m to go, and its {least.limit} is at most {at_least(limit)} "
             f"{UNITS[least.limit]}",
         ),
         f"give it `{transition_key(mission, picture)}: {shortest}`, leave it out to have it as fast as the "
@@ -269,7 +269,8 @@ def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tri
         help_ = f"leave `wave` out; {fewer}"
     return Diagnostic(
         "D141",
-        f"in this wave two drones of `{fleet.name}` come within {near.attained:.2f} m of each other; "
+        f"in this wave two drones of `{fleet.name}` come within "
+        f"{nearer_than(near.attained, fleet.apart.across)} m of each other; "
         f"the separation is {fleet.apart.across:.2f} m",
         (
             mission.origins.value(key),

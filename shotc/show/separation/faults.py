@@ -15,7 +15,7 @@ from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, Picture, RecordedFlight, drone_names
-from shotc.rounding import at_least, at_most
+from shotc.rounding import at_least, at_most, nearer_than
 from shotc.show.labels import wider
 from shotc.show.separation.longer import MoveBetweenStops
 from shotc.show.separation.off_goals import GoalDistance
@@ -77,8 +77,8 @@ def recorded_too_near(
     least = at_most(max(tried.best, nearest.attained))
     return Diagnostic(
         "D156",
-        f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
-        f"{nearest.time:.2f} s; the separation is {across:.2f} m",
+        f"two drones of `{fleet.name}` come within {nearer_than(nearest.attained, across)} m of each other "
+        f"at {nearest.time:.2f} s; the separation is {across:.2f} m",
         (mission.origins.value((*picture.path, "flight")), *_rule(mission, fleet)),
         tuple(notes),
         f"move them apart where the show was made, or ask for a separation of {least} m if that is enough",
@@ -93,8 +93,8 @@ def too_near(
     nearest, across = tried.nearest, fleet.apart.across
     return Diagnostic(
         "D086",
-        f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
-        f"{nearest.time:.2f} s; the separation is {across:.2f} m",
+        f"two drones of `{fleet.name}` come within {nearer_than(nearest.attained, across)} m of each other "
+        f"at {nearest.time:.2f} s; the separation is {across:.2f} m",
         (mission.origins.key(path), *_rule(mission, fleet)),
         (
             _who(fleet, nearest),
@@ -127,13 +127,14 @@ def fleets_meet(
     none was found.
     """
     fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
+    reached = nearer_than(nearest.attained, across)
     first, second = (
         drone_names(f)[row] for f, row in zip(fleets, (nearest.first, nearest.second), strict=True)
     )
     x, y, z = nearest.position
     return Diagnostic(
         "D087",
-        f"{fleets[0].words} and {fleets[1].words} come within {nearest.attained:.2f} m of each "
+        f"{fleets[0].words} and {fleets[1].words} come within {reached} m of each "
         f"other at {nearest.time:.2f} s; the separation is {across:.2f} m",
         tuple(mission.origins.key(fleet.key) for fleet in fleets),
         (

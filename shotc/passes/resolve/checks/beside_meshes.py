@@ -28,6 +28,7 @@ from shotc.passes.resolve.checks.heights import Way, raised, way_of
 from shotc.passes.resolve.checks.home import stands_free
 from shotc.passes.resolve.checks.places import by_line
 from shotc.planning.clearances import ROUNDING_M, clearances_of, move, outward
+from shotc.rounding import at_least
 
 PAD_RADIUS_RATIO = 1.5
 """Height above the home, over the body's radius, from which on nothing may be too near; below is its
@@ -70,7 +71,7 @@ def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
         how = (
             f"it is {-near.away:.2f} m deep in it"
             if inside
-            else f"the take-off comes within {near.away + 0.0:.2f} m"
+            else f"the take-off comes within {at_least(near.away + 0.0)} m"
         )
         note = f"{how}; {_needed(near.mesh, drone.radius, 0.0)} must be free"
         yield Diagnostic("G027", message, labels, (note, *_large(near.mesh)), _other_home(mission, drone))

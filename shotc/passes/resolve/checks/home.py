@@ -12,7 +12,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.planning.clearances import NUDGE_M, ROUNDING_M, Clearance, clearances_of, move, outward
-from shotc.rounding import at_least
+from shotc.rounding import at_least, nearer_than
 
 ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
 """Degrees from straight on at which a place around another home is searched, nearest first."""
@@ -104,7 +104,11 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[
         note = f"the take-off is {where}; the body radius of {drone.radius:.2f} m must be free"
         return f"the home of `{drone.name}` is outside keep-in zone `{obstacle.owner.name}`", note
     where = "in" if signed_distance(obstacle.solid, drone.home) < drone.radius else "under"
-    reach = f"comes within {distance:.2f} m" if distance > 0 else f"reaches {-distance:.2f} m into it"
+    reach = (
+        f"comes within {nearer_than(distance, drone.radius)} m"
+        if distance > 0
+        else f"reaches {-distance:.2f} m into it"
+    )
     note = (
         f"between the ground and {top:.2f} m it {reach}; the body radius of {drone.radius:.2f} m must be free"
     )

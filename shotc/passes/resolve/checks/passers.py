@@ -70,7 +70,7 @@ def _diagnostics(
         return
     caught = next((t for touch in touches if (t := _caught(drone, target, touch)) is not None), None)
     if caught is not None:
-        risen = f"by then the drone can be {_risen(drone, caught):.2f} m above its pad at most"
+        risen = f"by then the drone can be {at_least(_risen(drone, caught))} m above its pad at most"
         yield _fault(mission, drone, target, caught, risen)
     elif touches and touches[-1].last == inf and touches[-1].first < max(filmed) - ROUNDING:
         first = f"it stays there, and the drone films until {max(filmed):.1f} s at least"

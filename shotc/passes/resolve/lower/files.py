@@ -111,7 +111,7 @@ def read_file(
         reason = getattr(error, "strerror", None) or "the path cannot be followed"
         return Diagnostic("N008", f"cannot read `{name}`", label, (str(reason).lower(),), "check the file")
     if size > most:
-        message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:.0f} MB are read"
+        message = f"the file has {size / 1e6:.1f} MB, and no more than {most / 1e6:g} MB are read"
         return bad_file(origins, path, name, FileFault(message, None, "thin it"))
     return data
 

@@ -14,6 +14,7 @@ from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.world import PadSite, becalmed, beyond_model, limits_of
+from shotc.rounding import at_least
 from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec, in_no_group
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS
@@ -121,7 +122,8 @@ def _touching(fleet: Fleet, files: Files) -> list[Diagnostic]:
     label = files.origins.value(path if path in files.origins.keys else ("rules", "separation"))
     if path not in files.origins.keys and ("rules", "separation") not in files.origins.keys:
         label = files.origins.key(fleet.path)
-    note = f"their centres may come within {least:.2f} m, and each body has a radius of {fleet.radius:.2f} m"
+    centres = f"their centres may come within {at_least(least)} m"
+    note = f"{centres}, and each body has a radius of {fleet.radius:.2f} m"
     message = f"two drones of {fleet.words} may touch"
     return [Diagnostic("D003", message, (label,), (note,), f"ask for {bodies:.2f} m or more either way")]
 

@@ -19,6 +19,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
 from shotc.kinds.base import Place, counts_from_ground, stands
 from shotc.passes.resolve.lower.rehearsal import toward
+from shotc.rounding import at_least
 from shotc.spec.drones import CameraSpec, DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
@@ -307,7 +308,7 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         "K011",
         f"the wind leaves {what} `{drone.name}` no speed",
         labels,
-        (f"it flies {speed:.1f} m/s at most, and the wind takes {wind:.1f} m/s of that",),
+        (f"it flies {at_least(speed, 1)} m/s at most, and the wind takes {wind:.1f} m/s of that",),
         f"wait for wind below {min(none, half):.1f} m/s, which leaves it half its speed "
         f"({none:.1f} m/s leave it next to none), or take a faster drone",
     )
