@@ -73,7 +73,7 @@ def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:
 MOST_ROUNDS = 12  # Gauss-Newton iterations, from a good initial guess
 NUDGE_RAD = 1e-6  # rad
 VERTICAL_SHARE = 1e-9  # horizontal share of a distance, below which a ray has no yaw
-MOST_RAD = 0.2  # rad, largest step of an iteration
+MOST_RAD, LEAST_RAD = 0.2, 1e-9  # rad: largest step of an iteration, and the one that ends them
 
 
 def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
@@ -100,14 +100,17 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
         here = _errors(drone, offsets, references, angles)
         slopes = np.stack(
             [
-                (_errors(drone, offsets, references, angles + NUDGE_RAD * step) - here) / NUDGE_RAD
-                for step in np.eye(2)
+                (_errors(drone, offsets, references, angles + NUDGE_RAD * axis) - here) / NUDGE_RAD
+                for axis in np.eye(2)
             ],
             axis=2,
         )
         normal = np.einsum("mri,mrj->mij", slopes, slopes) + 1e-9 * np.eye(2)
         down = np.einsum("mri,mr->mi", slopes, here)
-        angles = angles - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
+        step = np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
+        angles = angles - step
+        if np.abs(step).max() < LEAST_RAD:
+            break
     return angles
 
 

@@ -54,15 +54,17 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
     moved = np.linalg.norm(after - before, axis=1)
     share = moved / np.maximum(away, STEP_S)
     k = int(share.argmax())
-    crops = any(
-        (_whole(camera_task, t, times, before) & ~_whole(camera_task, t, times, after)).any() for t in targets
-    )
+    crops = (_whole(camera_task, targets, times, before) & ~_whole(camera_task, targets, times, after)).any()
     return Cost(float(moved[k]), float(share[k]), bool(crops))
 
 
-def _whole(camera_task: CameraTask, target: Target, times: Array, places: Array) -> Mask:
-    """Return whether a target is whole in the frame of a camera with the task's angles, (M,)."""
-    aims = aims_at(camera_task, times, places)
-    still = places - centres(target, times) + np.array(target.centre)
-    cameras = Cameras(still, aims[:, 0], aims[:, 1], camera_task.hfov(times), camera_task.drone.aspect)
-    return np.asarray(frames(cameras, target.centre, shapes(target, times)).in_frame)
+def _whole(camera_task: CameraTask, targets: list[Target], times: Array, places: Array) -> Mask:
+    """Return whether targets are whole in the frame of a camera with the task's angles, shape (K, M)."""
+    yaw, pitch = aims_at(camera_task, times, places).T
+    hfov, aspect = camera_task.hfov(times), camera_task.drone.aspect
+    whole = np.ones((len(targets), len(times)), dtype=np.bool_)
+    for row, target in zip(whole, targets, strict=True):
+        still = places - centres(target, times) + np.array(target.centre)
+        cameras = Cameras(still, yaw, pitch, hfov, aspect)
+        row[:] = frames(cameras, target.centre, shapes(target, times)).in_frame
+    return whole
