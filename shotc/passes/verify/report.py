@@ -27,6 +27,7 @@ from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
 from shotc.passes.verify.transits import ENDING as PASSED
 from shotc.passes.verify.visible import AT_FIRST, AT_LAST, IN_SIGHT, VISIBLE
+from shotc.rounding import plain, up
 
 RULES = {
     "speed": Rule("V001", 1.0),
@@ -244,7 +245,7 @@ def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
     share = f"{100 * (1 - claim.worst):.3g} %"
     state = {
         "V030": f"not whole in frame in {share} of",
-        "V031": f"hidden by up to {share} of its outline in",
+        "V031": f"hidden by up to {plain(up(100 * (1 - claim.worst), 1))} % of its outline in",
         "V050": f"hidden by more than half in {share} of",
     }[code]
     phase = _phase_of(ir, claim)

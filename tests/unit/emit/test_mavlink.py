@@ -111,7 +111,7 @@ def test_every_drone_gets_its_files() -> None:
     # Both fly one way: what keeps them apart is no part of their files.
     (meeting,) = (d for d in emission.diagnostics if d.code == "E145")
     assert "cam1 and cam2" in meeting.message
-    assert "within 0.0 m" in meeting.notes[0]
+    assert "within 0.00 m" in meeting.notes[0]
     assert "shotc stream" in meeting.help
 
 

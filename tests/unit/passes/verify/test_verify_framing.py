@@ -1,7 +1,7 @@
 """What the proof says of a target on screen: in frame, hidden, off its place, and promises to paste."""
 
 import re
-from math import pi, radians
+from math import ceil, pi, radians
 
 import numpy as np
 import pytest
@@ -87,7 +87,7 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert share.time is not None
     assert PLAN.drones[0].curve(share.time)[0] > 39  # it hides it from the east only
     (told,) = Verify().run(ir, CONTEXT).diagnostics
-    most = f"{100 * (1 - share.worst):.3g} %"
+    most = f"{ceil(1000 * (1 - share.worst)) / 10:g} %"
     assert told.message == f"tower is hidden by up to {most} of its outline in shot `half`"
     assert told.notes[-1].startswith(f"zone `screen` hides up to {most} of it, and more than half in ")
     assert float(told.notes[-1].split()[-5]) == pytest.approx(100 * (1 - shown.worst), abs=0.2)
