@@ -15,6 +15,8 @@ PLACES = frozenset({"pyproj", "laspy", "lazrs"})
 SENDER = "pymavlink"
 ALONE = {"rotorpy": "rotorpy", "distributed": "dask"}
 """Libraries that each have their own extra."""
+PLUGINS = {"casadi": "shotc-casadi"}
+"""Libraries that no extra brings, with the plugin package of ours that does."""
 
 
 def remedy(libraries: Sequence[str]) -> str:
@@ -27,6 +29,9 @@ def remedy(libraries: Sequence[str]) -> str:
                 "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
                 "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
+    plugins = sorted(PLUGINS[name] for name in packages & PLUGINS.keys())
+    if plugins:  # Their packages need the extra `plan`, so they bring it, too.
+        return f"run `pip install {' '.join(_requirement(name, _source(name)) for name in plugins)}`"
     if packages <= ALONE.keys():
         return f"run `{install_line(','.join(sorted(ALONE[name] for name in packages)))}`"
     if SENDER in packages:
@@ -45,27 +50,33 @@ def has_viewer() -> bool:
 
 def install_line(extra: str) -> str:
     """Return the pip command that installs an extra from the source of this installation."""
-    return f"pip install {_requirement(extra, _source())}"
+    return f"pip install {_requirement(f'{PACKAGE}[{extra}]', _source(PACKAGE))}"
 
 
-def _source() -> dict[str, Any]:
-    """Return the source of shotc as recorded by pip (PEP 610); empty for a package index."""
+def _source(package: str) -> dict[str, Any]:
+    """Return the source of a package as recorded by pip (PEP 610); empty for a package index."""
     try:
-        text = distribution(PACKAGE).read_text("direct_url.json")
+        text = distribution(package).read_text("direct_url.json")
         source = json.loads(text or "{}")
     except (PackageNotFoundError, OSError, ValueError):
         return {}
     return source if isinstance(source, dict) else {}
 
 
-def _requirement(extra: str, source: dict[str, Any]) -> str:
-    """Return the requirement for pip, quoted for a shell."""
+def _requirement(wanted: str, source: dict[str, Any]) -> str:
+    """Return the requirement for pip, quoted for a shell.
+
+    wanted : the package, with its extra if there is one
+    """
     url = source.get("url")
     if not isinstance(url, str):
-        return f"'{PACKAGE}[{extra}]'"
+        return f"'{wanted}'"
     if source.get("dir_info", {}).get("editable") and url.startswith("file:"):
-        return f"-e '{unquote(urlsplit(url).path)}[{extra}]'"
+        extra = "".join(wanted.partition("[")[1:])
+        return f"-e '{unquote(urlsplit(url).path)}{extra}'"
     version = source.get("vcs_info", {})
     if version:
         url = f"{version.get('vcs', 'git')}+{url}@{version.get('commit_id', '')}"
-    return f"'{PACKAGE}[{extra}] @ {url}'"
+    if "subdirectory" in source:
+        url += f"#subdirectory={source['subdirectory']}"
+    return f"'{wanted} @ {url}'"
