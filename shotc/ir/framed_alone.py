@@ -10,7 +10,7 @@ from typing import NamedTuple
 from shotc.geom.vec import Vec2, Vec3, plus
 from shotc.geom.viewpoint import WHOLE_SIZE, RequiredView, stand, whole
 from shotc.ir.framed_course import MOST_LOST_SHARE, StartedFraming, aimed, at_place, evenly, places_of, shows
-from shotc.ir.framed_scene import FramedScene, required_view_at
+from shotc.ir.framed_scene import LOST_SHARE, FramedScene, required_view_at
 from shotc.ir.mission import OffsetPoints
 from shotc.ir.target import Target
 
@@ -193,5 +193,6 @@ def _at_bearing(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
 def _tried(scene: FramedScene, target: Target, beside: _Beside, points: OffsetPoints) -> _Tried:
     eyes = [(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks]
     shares = scene.shares(eyes)
-    # Half of a subject is hidden only where a part of it is.
-    return _Tried(beside, points, shares, scene.lost(eyes) if shares[1] > MOST_LOST_SHARE else 0.0)
+    # Where half of a subject is hidden, the hidden share is at least one half.
+    may_be_lost = shares[1] > LOST_SHARE * MOST_LOST_SHARE
+    return _Tried(beside, points, shares, scene.lost(eyes) if may_be_lost else 0.0)

@@ -89,6 +89,21 @@ def test_of_bearings_none_of_which_is_clear_the_one_that_hides_least_is_taken():
     assert 0.0 < found.hidden < hidden_by_surfaces(beside, "statue", eyes)[0]
 
 
+def test_a_camera_looks_over_a_wall_that_hides_two_thirds_of_a_walker_for_most_of_the_way():
+    """Over the whole way less than half of the walker is hidden."""
+    track = "walker: {track: {points: [[0, 0, 1.5], [20, 0, 1.5]], speed: 1}, radius: 0.5, height: 3}"
+    text = TEXT.replace("bench: {at: [3, 0, 1], radius: 0.5, height: 2}", track)
+    text = text.replace("SUBJECTS", "{target: walker, size: 0.3, view: {azimuth: 180 deg}}")
+    mission = clean(text.replace("{start: 20, duration: 5}", "{start: 0, duration: 20}")).mission
+    beside = with_meshes(mission, turned(house(14.0, 1.0, 1.9, 1.91), 0.0, (10.0, -3.0)))
+    level, found = (course_of(of, of.shots[0], 0.0) for of in (mission, beside))
+    eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(level.times, level.poses, strict=True)]
+    shares = np.array(hidden_by_surfaces(beside, "walker", eyes))
+    assert shares.mean() < 0.5 < (shares >= 0.5).mean()
+    assert found.poses[0][2] > level.poses[0][2] + 1.0
+    assert (found.hidden, found.lost) == (0.0, 0.0)
+
+
 def test_several_subjects_are_filmed_from_the_side_on_which_no_house_stands():
     mission = square("{target: statue, size: 0.3, frame: [0, 0]}, {target: bench}")
     plain = course(mission)
