@@ -46,12 +46,12 @@ def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> PlaceBound
 class FramedScene:
     """The inputs for the course of one framing."""
 
-    def __init__(self, mission: MissionIR, shot: Shot, start: float, *, past: bool = False) -> None:
-        """Past : whether viewpoints keep clear of solids, and look past what may hide a subject."""
+    def __init__(self, mission: MissionIR, shot: Shot, start: float, *, looks_past: bool = False) -> None:
+        """Looks_past : whether viewpoints keep clear of solids, and look past what may hide a subject."""
         duration = shot.timing.duration or 0.0
         knot = CHANGING_KNOT_S if any(s.setpoints for s in shot.subjects) else KNOT_S
         pieces = int(min(MOST, max(FEWEST, ceil(duration / knot))))
-        self.mission, self.shot, self.start, self.past = mission, shot, start, past
+        self.mission, self.shot, self.start, self.looks_past = mission, shot, start, looks_past
         self.drone = mission.drone(shot.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
         moves = any(s.setpoints for s in shot.subjects) or any(t.track is not None for t in mission.targets)
@@ -69,9 +69,9 @@ class FramedScene:
 
     def room_at(self, t: float) -> PlaceBounds:
         """Return the bounds on the camera at a mission time, with its preferred pose."""
-        bounds = (
-            self.room._replace(solids=kept_solids(self.mission, self.drone, t)) if self.past else self.room
-        )
+        bounds = self.room
+        if self.looks_past:
+            bounds = bounds._replace(solids=kept_solids(self.mission, self.drone, t))
         if self.near is None:
             return bounds
         drawn = PreferredPose(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
@@ -95,7 +95,7 @@ class FramedScene:
     def required_views(self, subjects: Sequence[Subject], t: float) -> tuple[RequiredView, ...]:
         """Return all subjects with their required appearance at a mission time."""
         views = [required_view_at(self.mission, s, self.start, t) for s in subjects]
-        if self.past:
+        if self.looks_past:
             views = [
                 view._replace(occluders=occluders_of(self.mission, s.target, t))
                 for s, view in zip(subjects, views, strict=True)

@@ -42,7 +42,7 @@ def together(scene: FramedScene) -> StartedFraming:
     course = _course(scene)
     if course.shows:
         return course
-    other = _course(FramedScene(scene.mission, scene.shot, scene.start, past=True))
+    other = _course(FramedScene(scene.mission, scene.shot, scene.start, looks_past=True))
     return other if other.shows else course
 
 
@@ -76,7 +76,7 @@ def _opening(scene: FramedScene) -> _Opening:
     subjects.
     """
     openings = _openings(scene)
-    if scene.past:
+    if scene.looks_past:
         ordered = sorted(openings, key=lambda o: o.cost)
         return _polished(scene, next((o for o in ordered if _shows(scene, o)), ordered[0]))
     least = min(o.cost for o in openings)

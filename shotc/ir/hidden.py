@@ -7,7 +7,7 @@ from math import hypot
 
 from shotc.geom.line_of_sight import crosses
 from shotc.geom.shapes import bodies_of, touch
-from shotc.geom.solids import Solid, convex_parts, signed_distance
+from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.vec import Vec3, minus, plus
 from shotc.geom.viewpoint import KeptSolid
 from shotc.ir.drone import Drone
@@ -45,24 +45,23 @@ def without_room(mission: MissionIR, drone: Drone, eyes: Sequence[tuple[float, V
 
 
 def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
-    for zone in mission.zones:
-        beyond = signed_distance(zone.solid, p)
-        lack = drone.radius + (beyond if zone.keep == "in" else -beyond)
+    for owner, solid in _kept_solids(mission, drone, t):
+        lack = solid.lack(p)
         if lack > ROUNDING_M:
-            yield zone_owner(zone), lack
-    need = mission.rules.beside_target(drone.radius)
-    for target in mission.targets:
-        lack = need - signed_distance(target.kept_clear_at(t), p)
-        if lack > ROUNDING_M:
-            yield target_owner(target), lack
+            yield owner, lack
 
 
 def kept_solids(mission: MissionIR, drone: Drone, t: float) -> tuple[KeptSolid, ...]:
     """Return the zones and targets that a drone keeps clear of at time t, with its distance from each."""
+    return tuple(solid for _, solid in _kept_solids(mission, drone, t))
+
+
+def _kept_solids(mission: MissionIR, drone: Drone, t: float) -> Iterator[tuple[Owner, KeptSolid]]:
+    for zone in mission.zones:
+        yield zone_owner(zone), KeptSolid(zone.solid, zone.keep == "in", drone.radius)
     need = mission.rules.beside_target(drone.radius)
-    zones = [KeptSolid(zone.solid, zone.keep == "in", drone.radius) for zone in mission.zones]
-    targets = [KeptSolid(target.kept_clear_at(t), False, need) for target in mission.targets]
-    return (*zones, *targets)
+    for target in mission.targets:
+        yield target_owner(target), KeptSolid(target.kept_clear_at(t), False, need)
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:

@@ -20,7 +20,7 @@ The subject is then at most a fourth larger or a sixth smaller, and its view tur
 PICTURE_SHARE = 0.5
 """Share of the distance to its target by which a shot may leave its ideal for its picture.
 
-It promises how its subjects appear, or something hides them.
+It may do so for a promise about its subjects, or because something hides them.
 """
 
 UNWATCHED = 10.0

@@ -129,8 +129,8 @@ def led_round(
         return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
     unseen = times[covered > 0.0]
-    delays = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
-    return VisiblePath(ideal + np.column_stack(between), np.clip(2.0 - delays / SPREAD_S, 0.0, 1.0))
+    seconds = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
+    return VisiblePath(ideal + np.column_stack(between), np.clip(2.0 - seconds / SPREAD_S, 0.0, 1.0))
 
 
 def _stride(times: Array) -> int:
@@ -159,9 +159,8 @@ def _course(
     if watched is not None:
         far = np.linalg.norm(shifts, axis=1)
         distances = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
-        most = np.where(
-            slack[:, :1] >= 0.0, FOR_SIGHT_SHARE * distances, np.inf
-        )  # a blocked ideal is left anyway
+        # A blocked ideal is left anyway.
+        most = np.where(slack[:, :1] >= 0.0, FOR_SIGHT_SHARE * distances, np.inf)
         unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
         price += (UNSEEN_SHARE * distances) ** 2 * unseen
     stay = np.where(slack >= 0.0, price * np.gradient(times)[:, None], BLOCKED_COST)

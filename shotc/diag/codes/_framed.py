@@ -99,10 +99,11 @@ FRAMED: tuple[CodeInfo, ...] = (
         24,
         "promise-without-framing",
         (
-            "a shot promises something of a target that the plan does not frame as its keyframes say",
-            "A promise is judged where the plan frames the target, against the reference in the plan. Between two "
-            "keyframes of one target it has to be framed all the time, and the reference has to lead from the one "
-            "keyframe's place on screen to the other's. A plan where it does not was edited or damaged.",
+            "the plan does not frame a target as its shot's keyframes say",
+            "A picture is judged where the plan frames the target, against the reference in the plan. Between two "
+            "keyframes of one target it has to be framed all the time. If the shot promises something, the "
+            "reference also has to lead from the one keyframe's place on screen to the other's. A plan where it "
+            "does not was edited or damaged.",
         ),
     ),
     verified(

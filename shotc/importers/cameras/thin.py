@@ -79,11 +79,11 @@ def picture_change(a: ImportedCamera, b: ImportedCamera) -> float:
     depth = max(NEAREST_M, a.at[2])
     worst = 0.0
     for u, v in CORNERS:
-        distances = [
+        offset = [
             p - q + depth * (f + u * one.wide * r + v * one.high * t)
             for p, q, f, r, t in zip(one.at, other.at, one.forward, one.right, one.up, strict=True)
         ]
-        x, y, z = (sum(d * k for d, k in zip(distances, axis, strict=True)) for axis in other[1:4])
+        x, y, z = (sum(d * k for d, k in zip(offset, axis, strict=True)) for axis in other[1:4])
         if z <= 0.0:
             return inf
         worst = max(worst, hypot(x / z / other.wide - u, y / z / other.high - v))

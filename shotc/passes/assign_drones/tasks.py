@@ -72,12 +72,13 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[ShotTask, ..
     tasks: list[ShotTask] = []
     for i, written in enumerate(ir.spec.shots):
         open_ = written.drone == AUTO
-        mission = _alone(ir, kinds, i, next(iter(ir.spec.drones)) if open_ else written.drone)
+        first, *others = ir.spec.drones if open_ else (written.drone,)
+        mission = _alone(ir, kinds, i, first)
         if mission is None:
             return None
         ends = dict.fromkeys(ir.spec.drones, _ends(mission, mission.shots[0]))
         if open_ and _depends_on_drone(mission.shots[0]):
-            for drone in ir.spec.drones:
+            for drone in others:
                 resolved = _alone(ir, kinds, i, drone)
                 if resolved is not None:
                     ends[drone] = _ends(resolved, resolved.shots[0])

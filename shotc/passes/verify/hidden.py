@@ -51,7 +51,8 @@ def nowhere_seen(mission: MissionIR, phase: Phase) -> Iterator[str]:
     shot = mission.shot(str(phase.shot))
     framed = shot.ideal is not None and shot.ideal.framed
     if framed and course_of(mission, shot, phase.start).lost > HALF_SHARE:
-        yield "places all round, as far as the framing leaves them free, were tried: none shows it"
+        what = "it" if len(shot.subjects) == 1 else "all subjects"
+        yield f"places all round, as far as the framing leaves them free, were tried: none shows {what}"
 
 
 def _by_name(

@@ -30,9 +30,9 @@ Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
 
-    Between two references the wanted one lies on the straight line from one to the other. A shot that does
-    not frame its target would hide what is wrong with its picture, so that the first claim is always hard.
-    The second one is hard where the shot promises something, else soft.
+    Between two references the wanted one lies on the straight line from one to the other. The first claim is
+    always hard: other claims judge the picture of the target only while the target is framed. The second one
+    is hard where the shot promises something, else soft.
     """
     shot, hard = placed.shot, placed.shot.promise != Promise()
     if shot.ideal is not None and not is_keyed(shot):

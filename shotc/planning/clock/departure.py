@@ -126,8 +126,8 @@ def choose(
     The best is chosen lexicographically: no target too near, then no drone too near, then the stated
     clearances of transfers, then the least delay, then the other clearances of transfers, then the slack,
     then the pictures of others. The order follows verification, which refuses what is too near. A shot that
-    is late can still be put off, or be reported with its earliest start. Where a start is given, no transfer
-    in time changes what the next leg comes near to, so that this does not make a late one better.
+    is late can still be put off, or be reported with its earliest start. Where a start is given, every
+    transfer in time leads to the same next leg, so nothing near that leg makes a late transfer better.
 
     ways : legs of each candidate, the preferred ones first
     then : the next leg, which has to be clear as well

@@ -330,10 +330,10 @@ class Itinerary:
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for a start, and the transfer to it, with the ends that suit it best."""
-        reached = self._plainly(placed, start)
-        return self._suited(reached) if isinstance(reached, Reached) else reached
+        reached = self._with_plain_ends(placed, start)
+        return self._with_better_ends(reached) if isinstance(reached, Reached) else reached
 
-    def _plainly(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
+    def _with_plain_ends(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for a start, and the transfer to it, with straight ends if there is such a motion.
 
         A subject that follows the camera runs into a drone that stops ahead of it. Then the shot begins or
@@ -348,7 +348,7 @@ class Itinerary:
             return next((a for a in asides if isinstance(a, Reached) and a.transfer.met is None), near)
         return near
 
-    def _suited(self, near: Reached) -> Reached:
+    def _with_better_ends(self, near: Reached) -> Reached:
         """Return a shot with other ends, if they are better.
 
         If every transfer to its first pose comes too near to a target, the shot begins aside or farther off.
@@ -382,8 +382,8 @@ class Itinerary:
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""
-        reached = put_off(self.mission, self._plainly, placed, start, self._about(placed))
-        return self._suited(reached) if isinstance(reached, Reached) else reached
+        reached = put_off(self.mission, self._with_plain_ends, placed, start, self._about(placed))
+        return self._with_better_ends(reached) if isinstance(reached, Reached) else reached
 
     def _about(self, placed: PlacedShot) -> Lateness:
         """Return an estimate of the seconds by which a straight flight to a shot is late."""

@@ -90,7 +90,7 @@ class TooLate:
 class Reached:
     """A planned shot, the transfer to it, and the drone's delay there in seconds.
 
-    placed : the shot as it is planned; it is shorter than the mission states if its track is
+    placed : the shot as it is planned; it is shorter than stated if the track of its target ends first
     ends_aside : whether the shot begins, and whether it ends, away from moving obstacles
     """
 

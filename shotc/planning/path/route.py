@@ -187,7 +187,7 @@ class _Graph:
 
     def _near_end(self, j: int, end: int) -> Mask | None:
         """Return which edges between an end of the route, 0 or 1, and each node come too near to obstacle j;
-        None if the end lies outside of the grown prism, so that this decides.
+        None if the end lies outside of the grown prism, which then decides.
         """
         place = self.nodes[end : end + 1]
         if not _inside(self.scene.grown[j], place, self.scene.reach(j) + 1e-6)[0]:

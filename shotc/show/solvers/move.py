@@ -90,10 +90,8 @@ class Ceilings:
     @staticmethod
     def of(displacements: Array, limits: Limits, pace: float) -> Ceilings:
         """Return the bounds of every limit times ``pace`` for moves g - x, shape (n, 3), m."""
-        across, far = (
-            np.hypot(displacements[:, 0], displacements[:, 1]),
-            np.linalg.norm(displacements, axis=1),
-        )
+        across = np.hypot(displacements[:, 0], displacements[:, 1])
+        far = np.linalg.norm(displacements, axis=1)
         with np.errstate(divide="ignore"):
             rates = np.stack(
                 [

@@ -14,6 +14,8 @@ from shotc.ir.framed import course_of
 from shotc.ir.framed_course import StartedFraming
 from shotc.ir.framed_scene import lens_of, required_view_at
 from shotc.ir.mission import MissionIR
+from shotc.ir.phases import Phase
+from shotc.passes.verify.hidden import nowhere_seen
 from tests.support.compiled import compiled_text
 from tests.support.front_passes import placed
 
@@ -141,7 +143,10 @@ def test_several_subjects_stay_hidden_where_no_place_shows_one() -> None:
     """The person stands in a shaft that is too narrow for a drone, and too deep to look into."""
     walls = COURT.replace("3]", "100]").replace(" 6]", " 200]").replace("5,", "2,").replace(" 5,", " 2,")
     text = SEVERAL.format(asked="").replace("targets:", f"world:\n  zones:\n{walls}targets:")
-    assert course(mission_of(text)).lost == 1.0
+    mission = mission_of(text)
+    assert course(mission).lost == 1.0
+    (note,) = nowhere_seen(mission, Phase("shot", "a", START, START + 10.0))
+    assert note.endswith("were tried: none shows all subjects")
 
 
 @pytest.mark.long
