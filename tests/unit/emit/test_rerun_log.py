@@ -100,6 +100,9 @@ def test_the_recording_holds_every_entity(rrd: Path) -> None:
     assert "/world/zones/field/volume" not in {entity for entity, _ in known}
 
 
+LAYOUT = ("EyeControls3D:", "TimePanelBlueprint:")
+
+
 def test_the_timeline_that_opens_begins_at_the_first_filmed_frame(rrd: Path) -> None:
     rows = 0
     for chunk in RrdReader(rrd).stream().to_chunks():
@@ -123,6 +126,23 @@ def test_a_recording_opens_with_the_camera_and_its_subject_in_view() -> None:
     for point in (flight.curve(22.0)[:3], (0.0, 0.0, 0.0), (0.0, 0.0, 24.0)):
         to = np.subtract(point, stand.eye)
         assert np.degrees(np.arccos(to @ ahead / np.linalg.norm(to))) < 27.5, "the viewer's lens sees 55 deg"
+
+
+def test_the_recorded_layout_has_that_view_and_plays_from_the_first_filmed_frame(rrd: Path) -> None:
+    reader, found = RrdReader(rrd), dict[str, Any]()
+    (layout,) = reader.blueprints()
+    for chunk in reader.stream(store=layout).to_chunks():
+        batch = chunk.to_record_batch()
+        for name, values in zip(batch.schema.names, batch.columns, strict=True):
+            rows = [row for row in values.to_pylist() if row]
+            if name.startswith(LAYOUT) and rows:
+                found[name] = rows[-1][0]
+    stand = first_stand(orbit_plan())
+    assert stand is not None
+    assert found["EyeControls3D:position"] == pytest.approx(stand.eye, abs=1e-4)
+    assert found["EyeControls3D:look_target"] == pytest.approx(stand.look, abs=1e-4)
+    assert found["TimePanelBlueprint:timeline"] == "filmed"
+    assert found["TimePanelBlueprint:time_selection"] == {"min": 22_000_000_000, "max": 52_000_000_000}
 
 
 def test_the_recording_has_one_active_layout(rrd: Path) -> None:
