@@ -7,7 +7,8 @@ from math import asin, atan2, pi, radians, sqrt
 import numpy as np
 import pytest
 
-from shotc.geom.bernstein import quintic_hermite
+from shotc.geom.bernstein import Piecewise, quintic_hermite
+from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.passes.verify.sight import CameraAndBody, infimum
 from tests.support.sight_plans import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
 
@@ -113,6 +114,20 @@ def test_a_drone_that_crosses_between_two_samples_is_found(half_angle: float | N
     assert found.time == pytest.approx(4.5, abs=0.02)
     middle = -20 / ROOT - R if half_angle is None else -asin(R / 20)
     assert found.worst == pytest.approx(middle, abs=0.02 * abs(middle - limit))
+
+
+@pytest.mark.parametrize("axis", [CAM_YAW, CAM_PITCH])
+def test_a_camera_that_turns_past_a_drone_between_two_samples_sees_it(axis: int) -> None:
+    # It turns steadily, from 69 degrees on one side of the bird to as many on the other within a second.
+    first, last = EYE.copy(), EYE.copy()
+    first[axis], last[axis] = (2.4 * (t - 4.5) for t in (0.0, LENGTH))
+    steady = Piecewise(np.array([0.0, LENGTH]), np.linspace(first, last, 6)[None])
+    eye, bird = film("eye", steady, (4.0, 5.0)), unfilmed("bird", still(at(20.0, 0.0, 10.0)))
+    slow = mission(rate=1.0)
+    assert CameraAndBody(slow, eye, bird).out(np.array([4.0, 5.0])).min() > 5.0
+    (found,) = claims(slow, eye, bird)
+    assert not found.holds
+    assert found.worst == pytest.approx(-20 / ROOT - R, rel=0.02)
 
 
 def test_what_holds_is_proved_between_samples() -> None:
