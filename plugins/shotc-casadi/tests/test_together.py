@@ -207,7 +207,7 @@ def test_round_a_corner_both_appear_better_than_by_the_guide_and_the_camera_is_c
 def test_who_walks_behind_another_is_looked_at_past_him() -> None:
     behind = BEHIND.replace("allow: [fast-pan]", "allow: [fast-pan, hidden-subject]")
     assert claim(compiled(behind, "none"), "b in sight") < 0.9
-    ours = compiled(BEHIND)
+    ours = compiled(behind)
     assert claim(ours, "a in sight") > 0.99
     assert claim(ours, "b in sight") > 0.99
     assert not [d for d in ours.diagnostics if d.code[0] == "R"]

@@ -98,13 +98,14 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
 
 
 def with_occluders(
-    occluders: Sequence[Occluder], references: ClockReferences, eyes: Array, filmed: Mask
+    occluders: Sequence[Occluder], references: ClockReferences, eyes: Array, filmed: Mask, *, bounded: bool
 ) -> ClockReferences:
     """Return the references with the ellipsoids near the lines of sight from ``eyes`` (N + 1, 3).
 
     Ellipsoids of earlier rounds stay.
 
     filmed : whether each node is in the film
+    bounded : whether the camera stays as near to its ideal place as verification accepts
     """
     if not occluders:
         return references
@@ -126,21 +127,25 @@ def with_occluders(
                 1.0,
                 *points[k, occluder.before],
             ]
-    return replace(
-        references, sight_lines=sight_lines, near=near, reach=_reach_past(references, eyes, filmed)
-    )
+    reach = _reach_past(references, eyes, filmed) if bounded else np.full(len(eyes), np.inf)
+    return replace(references, sight_lines=sight_lines, near=near, reach=reach)
+
+
+def farthest_past(references: ClockReferences, filmed: Mask) -> float:
+    """Return how far from its ideal place a camera may look past something, metres.
+
+    Verification accepts a share of the distance to the nearest subject.
+    """
+    away = np.linalg.norm(references.centres - references.ideal[:, None], axis=2).min(axis=1)
+    return PICTURE_SHARE * float(away[filmed].max(initial=0.0))
 
 
 def _reach_past(references: ClockReferences, eyes: Array, filmed: Mask) -> Array:
-    """Return how far the camera may be from its ideal place to look past something, metres, (N + 1,).
-
-    Verification believes a share of the distance to the nearest subject. A course ``eyes`` that is farther
-    away already may stay.
+    """Return the same bound for each node, (N + 1,); a course ``eyes`` that is farther away already may
+    stay.
     """
-    ideal = references.ideal
-    away = np.linalg.norm(references.centres - ideal[:, None], axis=2).min(axis=1)
-    most = INNER_SHARE * PICTURE_SHARE * float(away[filmed].max(initial=0.0))
-    off = np.linalg.norm(eyes - ideal, axis=1) + INNER_M
+    off = np.linalg.norm(eyes - references.ideal, axis=1) + INNER_M
+    most = INNER_SHARE * farthest_past(references, filmed)
     return np.where(filmed, np.maximum(most, off), np.inf)
 
 

@@ -90,7 +90,7 @@ class _Shot:
 
     occluders, bodies : to look past, and to keep away from
     shown : whether each node is in the film
-    unseen : as in ``refine_clock``
+    unseen, bounded : as in ``refine_clock``
     """
 
     subject: ClockSubject
@@ -100,6 +100,7 @@ class _Shot:
     bodies: tuple[MovingEllipsoid, ...]
     shown: Mask
     unseen: bool
+    bounded: bool
 
     @property
     def guide(self) -> Piecewise:
@@ -147,17 +148,22 @@ class _Round:
 
 
 def refine_clock(
-    subject: ClockSubject, occluders: tuple[Occluder, ...] = (), *, unseen: bool = True
+    subject: ClockSubject,
+    occluders: tuple[Occluder, ...] = (),
+    *,
+    unseen: bool = True,
+    bounded: bool = False,
 ) -> ClockRefined:
     """Return one shot refined.
 
     occluders : what it has to look past
     unseen : whether it stays as far outside the drones' pictures as its guide
+    bounded : whether a camera that looks past something stays as near to its place as verification accepts
     """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
     shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
-    shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), shown, unseen)
+    shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), shown, unseen, bounded)
     now = _begun(shot)
     while not now.ended and now.rounds < MOST_ROUNDS:
         now = _next(shot, now)
@@ -219,7 +225,7 @@ def _counts_anew(shot: _Shot, after: _Round, references: ClockReferences) -> boo
 def _surroundings_of(shot: _Shot, now: _Round) -> _Surroundings:
     """Return the surroundings of a round along its course."""
     eyes = now.course(shot.breaks)
-    references = with_occluders(shot.occluders, now.references, eyes, shot.shown)
+    references = with_occluders(shot.occluders, now.references, eyes, shot.shown, bounded=shot.bounded)
     return _Surroundings(kept_from(shot.bodies, references, eyes), _planes(shot, now))
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api.refiner import (
+    Array,
     ClockLeg,
     DroneTrajectory,
     PlacedSubject,
@@ -20,8 +21,8 @@ from shotc.plugin_api.refiner import (
     projected,
     wanted_places,
 )
-from shotc_casadi.clock.occluders import occluders_of
-from shotc_casadi.clock.references import ClockSubject
+from shotc_casadi.clock.occluders import farthest_past, occluders_of
+from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.covered import GAIN_SHARE, Free, broken, free_of, lost
 
@@ -64,11 +65,22 @@ def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool =
     before = plain.leg or subject.leg
     if _covered(subject, before) <= GAIN_SHARE:
         return None
-    freed = refine_clock(subject, occluders_of(subject, plain.breaks), unseen=unseen)
+    occluders = occluders_of(subject, plain.breaks)
+    freed = refine_clock(subject, occluders, unseen=unseen)
+    if freed.leg is not None and _too_far(subject, freed.leg, freed.breaks):
+        # Only now, since the bound makes some motions end on the side where the subject is hidden.
+        freed = refine_clock(subject, occluders, unseen=unseen, bounded=True)
     if freed.leg is None:
         return None
     better = _covered(subject, freed.leg) < _covered(subject, before) - GAIN_SHARE
     return freed if better and as_whole(subject, before, freed.leg) else None
+
+
+def _too_far(subject: ClockSubject, leg: ClockLeg, breaks: Array) -> bool:
+    """Return whether a camera goes farther from its ideal place than verification accepts."""
+    references, filmed = references_at(subject, breaks), (breaks >= leg.start) & (breaks <= leg.end)
+    off = np.linalg.norm(leg.curve(breaks)[:, :3] - references.ideal, axis=1)
+    return bool(off[filmed].max() > farthest_past(references, filmed))
 
 
 def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:

@@ -123,8 +123,9 @@ def test_what_is_planned_is_as_far_apart_as_it_has_to_be_and_what_is_refused_is_
     (fault,) = waves.faults
     assert fault.code == "D141"
     attained = float(fault.message.split("come within ")[1].split(" m")[0])
-    assert attained < APART.across + 0.005
-    assert least >= attained - 0.005  # what is told is the least there is
+    # What is told is the least there is, rounded up.
+    assert attained < APART.across + 0.01
+    assert least >= attained - 0.01
     if "write `time" in fault.help or "write `wave" in fault.help:
         longest = float(fault.help.split(": ")[1].split(" s")[0])
         assert 0.0 < longest < time

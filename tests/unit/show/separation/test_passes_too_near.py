@@ -76,7 +76,7 @@ def told(found: Diagnostic, key: str) -> float:
 def test_a_period_that_is_too_short_comes_with_one_that_does() -> None:
     said: list[str] = []
     (found,) = planned(half_a_turn(0.27), said).diagnostics
-    assert "0.89 m of each other" in found.message
+    assert "0.90 m of each other" in found.message
     assert "the separation is 1.40 m" in found.message
     assert found.notes[0].startswith("they are `swarm-")
     best = float(found.notes[1].split("keeps ")[1].split(" m")[0])
