@@ -69,6 +69,7 @@ def test_a_target_where_the_plan_has_it_changes_nothing():
         assert aim.at(tick, tick / RATE_HZ) == pytest.approx(course.aim(tick), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spot", "axis"),
     [((0.5, -49.0, 80.0), "pitch"), ((3.0, -150.0, 12.0), "yaw")],

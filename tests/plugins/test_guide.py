@@ -99,6 +99,7 @@ def test_the_kind_refuses_what_its_parameters_do_not_allow(examples):
     assert (fault.code, "`swing`" in fault.help) == ("K010", True)
 
 
+@pytest.mark.slow
 def test_the_emitter_lists_the_shots(examples):
     plan = planned(SWING).plan
     (table,) = (a for a in emit_plan(plan, ["shotlist"]).artifacts if a.name == "shots.csv")
@@ -107,6 +108,7 @@ def test_the_emitter_lists_the_shots(examples):
     assert row.startswith("cam,to-and-fro,")
 
 
+@pytest.mark.slow
 def test_the_refiner_is_taken_and_keeps_the_target_nearer_to_its_place(examples):
     def worst(plan):
         return max(c.worst for c in plan.certificate if c.constraint == "mast screen error")

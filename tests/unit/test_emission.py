@@ -152,6 +152,7 @@ def test_a_missing_library_is_an_outcome():
     assert lacking.name == "rerun"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [Deadly, Stillborn, Unsendable])
 @pytest.mark.parametrize("jobs", [2, 3])
 def test_what_a_worker_does_not_bring_back_is_made_here(kind, jobs):

@@ -97,6 +97,7 @@ def test_turning_the_camera_is_no_jerk():
     assert squared_jerk(curve, 0.0, 1.0) == 0.0
 
 
+@pytest.mark.slow
 def test_a_plan_is_measured_by_what_its_certificate_says():
     plan = orbit_plan()
     (shot,) = flown_shots(plan)

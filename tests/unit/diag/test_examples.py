@@ -41,6 +41,7 @@ def check(tmp_path_factory: pytest.TempPathFactory) -> Check:
     return checked
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("info", FAILING)
 def test_the_failing_example_raises_its_code_alone(info: CodeInfo, check: Check) -> None:
     found = check(info.failing)

@@ -120,6 +120,7 @@ def test_framing_rows_are_the_samples_of_the_shot() -> None:
     assert column(SEEN, "size") == pytest.approx(0.8101, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_behind_the_camera_cells_are_empty_and_flags_are_not() -> None:
     track = PLAN.trajectory.drones[0]
     ctrl = track.curve.ctrl.copy()

@@ -222,6 +222,7 @@ def test_points_are_never_nearer_to_each_other_than_machines_take():
     assert np.linalg.norm(np.diff([east, north, up]), axis=0).min() > SHORTEST_LEG_M - 0.03
 
 
+@pytest.mark.slow
 def test_a_camera_that_turns_while_the_drone_stands_is_told_with_its_error():
     low, high, turned = (
         (0.0, -60.0, 0.0, pi / 2, 0.0),

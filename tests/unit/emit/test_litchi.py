@@ -34,6 +34,7 @@ def orbit():
     return EMITTER.emit(retold(orbit_plan(), autopilot="dji-fly"))
 
 
+@pytest.mark.slow
 def test_the_table_has_46_columns_and_a_row_for_each_point(orbit):
     (artifact,) = orbit.artifacts
     head, *rows = artifact.data.decode().splitlines()
@@ -96,6 +97,7 @@ def test_a_long_stay_is_several_and_west_is_270_degrees():
     assert sum(a.seconds for a in again.actions) == 40.0
 
 
+@pytest.mark.slow
 def test_a_long_mission_becomes_several_tables_that_go_on_from_each_other(orbit):
     source = retold(orbit_plan(), autopilot="dji-fly")
     emission = emit_files(source, replace(FORMAT, most=10))
@@ -108,6 +110,7 @@ def test_a_long_mission_becomes_several_tables_that_go_on_from_each_other(orbit)
     assert FORMAT.most == 99
 
 
+@pytest.mark.slow
 def test_a_machine_without_waypoints_of_its_own_is_told():
     emission = EMITTER.emit(retold(orbit_plan(), autopilot="litchi", model="mini-3-pro"))
     assert emission.artifacts

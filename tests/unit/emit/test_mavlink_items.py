@@ -25,6 +25,7 @@ def test_headings_run_clockwise_from_north(yaw: float, heading: float) -> None:
     assert compass_deg(yaw) == heading
 
 
+@pytest.mark.slow
 @given(st.floats(-50.0, 50.0))
 def test_headings_never_reach_360_and_signed_angles_stay_in_range(yaw: float) -> None:
     assert 0.0 <= compass_deg(yaw) < 360.0

@@ -16,6 +16,7 @@ from shotc.ir.show import Apart
 from tests.support import show_flights
 
 
+@pytest.mark.slow
 def test_a_fleet_is_one_cloud_over_time(tmp_path: Path) -> None:
     plan = show_flights.plan()
     path = tmp_path / "mission.rrd"

@@ -216,6 +216,7 @@ def over_a_slope(fall: float) -> VerifiedIR:
     return plan(mission(terrain=terrain(shape), meshes=built))
 
 
+@pytest.mark.slow
 def test_over_terrain_the_ground_risk_buffer_is_as_wide_as_the_flight_is_high_over_its_lowest_ground() -> (
     None
 ):

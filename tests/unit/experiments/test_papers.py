@@ -99,6 +99,7 @@ def test_a_camera_on_a_line_shows_what_geometry_says():
     assert seen.whole == seen.four_points == 1.0
 
 
+@pytest.mark.slow
 def test_what_is_wanted_is_the_keyframes_own_at_the_marks_and_half_of_each_half_way():
     curve = Piecewise(np.array([0.0, 10.0]), np.zeros((1, 6, 7)))
     mission, keyframes, leg = still_leg(curve, [(-1 / 3, 0.2), (1 / 3, 0.0)])

@@ -113,6 +113,7 @@ def test_heights_above_the_sea_count_from_the_origin() -> None:
     assert low.worst == pytest.approx(20.0 - 0.6, abs=0.01)
 
 
+@pytest.mark.slow
 def test_drones_that_time_alone_would_keep_apart_are_refused() -> None:
     other = ((12.0, -60.0, 20.0), (-40.0, 0.0, 20.5), (12.0, -60.0, 20.0))
     files = ("cam1.kmz", dji_file(AROUND)), ("cam2.plan", plan_file(other))

@@ -92,6 +92,7 @@ def test_many_parts_become_few_bodies_that_hold_them_all():
     assert all(gap(bodies, p) < 1e-9 for block in blocks for p in inner(block, rng, 20))
 
 
+@pytest.mark.slow
 def test_any_ring_is_held_and_cuts_take_away_what_is_beside_it():
     rng = np.random.default_rng(7)
     shares = []

@@ -96,6 +96,7 @@ def test_a_subject_is_soft_where_it_reaches_out_of_the_limits_and_the_fix_mends_
     assert worst(made.plan, " blur disc") == pytest.approx(1e3 * disc, rel=0.02)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_focus_on_another_target_softens_the_one_that_is_framed() -> None:
     made = plan(f"{LENS}, aperture: f/2.8", ", focus: tree")
     assert float(rows(made)[-1]["focus_m"]) == pytest.approx(42.0, abs=0.1)
@@ -162,6 +163,7 @@ def test_the_background_of_a_turning_camera_goes_as_fast_as_it_turns() -> None:
         assert float(row["background_blur_px"]) == pytest.approx(far, rel=0.02)
 
 
+@pytest.mark.slow
 def test_missions_without_exposure_have_no_columns_of_it() -> None:
     made = plan(LENS)
     assert "focus_m" not in rows(made)[0]

@@ -146,6 +146,7 @@ def test_rings_turn_by_their_sweep_in_small_even_steps(
         assert p == pytest.approx((r * sin(a), r * cos(a), 5 + 4 * i / n), abs=1e-9)
 
 
+@pytest.mark.slow
 @given(
     st.tuples(st.floats(5, 100), st.floats(5, 100)),
     st.tuples(st.floats(2, 100), st.floats(2, 100)),

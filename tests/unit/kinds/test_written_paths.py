@@ -143,6 +143,7 @@ NEAR_AN_ORIGIN = given(
 """Latitude and longitude of an origin, how far off a place is, degrees, and its height."""
 
 
+@pytest.mark.slow
 @NEAR_AN_ORIGIN
 def test_places_on_earth_agree_with_pymap3d(
     lat: float, lon: float, dlat: float, dlon: float, h: float

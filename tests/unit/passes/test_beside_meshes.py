@@ -69,6 +69,7 @@ def test_a_home_beside_a_wall_and_on_a_roof_is_one(folder, home):
     assert told(folder, home=home) == []
 
 
+@pytest.mark.slow
 def test_the_ground_of_a_scanned_scene_is_no_obstacle_to_a_home_on_it(tmp_path):
     random = np.random.default_rng(1)
     x, y = np.meshgrid(np.arange(-60, 61, 2.0), np.arange(-60, 61, 2.0), indexing="ij")

@@ -8,6 +8,7 @@ from tests.support.front_passes import resolved
 from tests.support.resolve_missions import FIRST, at, faults, mission, only
 
 
+@pytest.mark.slow
 def test_every_fault_of_the_mission_is_told_in_one_run() -> None:
     text = (
         mission(

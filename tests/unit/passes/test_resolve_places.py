@@ -171,6 +171,7 @@ def test_polygons_may_run_either_way_and_close_themselves(order: str) -> None:
     assert sorted(solid.points) == [(-80, -80), (-80, 80), (80, -80), (80, 80)]  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_a_generated_path_is_told_where_it_would_be_free() -> None:
     d = only(mission("id: a, kind: orbit, target: tower, radius: 3, altitude: 20"))
     assert d.code == "G004"

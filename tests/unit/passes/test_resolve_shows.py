@@ -318,6 +318,7 @@ def test_a_glb_needs_no_units(tmp_path: Path) -> None:
     assert [d.code for d in faults(show("{model: {files: a.glb, center: [0, 0, 40]}}"), tmp_path)] == []
 
 
+@pytest.mark.slow
 def test_tables_and_recordings_of_large_shows_are_made_where_they_are_asked_for() -> None:
     small, large = (FLEET.replace("count: 60", f"count: {n}") for n in (60, 2001))
     assert resolve(show(fleet=small)).emit == ("csv", "skyc", "contact-sheet", "animatic", "rerun")

@@ -163,6 +163,7 @@ def test_compare_shows_a_calmer_camera_farther_from_its_place() -> None:
     assert turning == sorted(turning, reverse=True)
 
 
+@pytest.mark.slow
 def test_who_plans_anew_weighs_the_rates_of_the_camera_by_the_square_of_the_smoothing() -> None:
     weights = []
 

@@ -37,6 +37,7 @@ def test_the_central_meridian_on_the_equator():
     assert south[0] == pytest.approx(10_000_000)
 
 
+@pytest.mark.slow
 @given(st.floats(-84, 84), st.floats(-4, 4), st.integers(1, 60))
 def test_the_way_there_and_back_ends_where_it_began(lat: float, away: float, zone: int):
     lon = 6 * zone - 183 + away

@@ -327,6 +327,7 @@ def test_shots_fly_as_written_unless_their_timing_says_otherwise() -> None:
     assert ids(flown_order(shots(("a", "x", Timing(after="b")), ("b", "x", Timing(after="a"))))) == "ab"
 
 
+@pytest.mark.slow
 @given(st.permutations("abcdef"), st.lists(st.sampled_from("abcdef"), min_size=6, max_size=6))
 def test_a_shot_comes_after_the_one_it_waits_for(order: list[str], waits: list[str]) -> None:
     # Waits only for shots of a smaller letter run in no circle.

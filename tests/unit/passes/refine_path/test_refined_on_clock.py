@@ -122,6 +122,7 @@ def test_a_shot_that_takes_longer_than_its_convex_path_is_not_put_back():
         rejoined(path(), {"pass": Piecewise(straight.breaks, winding)})
 
 
+@pytest.mark.slow
 def test_a_refined_leg_that_takes_another_time_is_a_fault():
     def slower(one):
         return replace(one, duration=100.0) if one.shot == "pass" else one

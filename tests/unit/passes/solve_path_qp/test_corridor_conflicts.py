@@ -48,6 +48,7 @@ def scene(solid: Solid):
     return mission(out("pole", solid), inside("field", FIELD), targets=())
 
 
+@pytest.mark.slow
 def test_a_remedy_that_is_told_plans_when_it_is_applied():
     assert solve(scene(POLE), through(PAST)).value is None
     fault = told(scene(POLE), PAST)

@@ -89,12 +89,14 @@ def test_a_generated_path_leaves_its_ideal_and_says_so():
     assert np.abs(np.hypot(q[far, 0], q[far, 1]) - 40).max() < 0.4
 
 
+@pytest.mark.slow
 def test_generated_ends_that_are_blocked_move_to_free_places():
     made = mission(out("pole", Cylinder((0.0, -40.0), 3.0, 0.0, 30.0)), targets=(TOWER,))
     path = planned(made, shot(circle(TOWER, 25, 40, 20, placed=False)))
     assert {d.cause for d in path.deviations} == {"zone pole"}
 
 
+@pytest.mark.slow
 def test_transit_and_return_lead_round():
     wall = out("wall", block((-30, 30), (-31, -29), (0, 50)))
     made = mission(wall, inside("field", FIELD), targets=())

@@ -37,6 +37,7 @@ def told(text: str) -> list[Diagnostic]:
     return resolved(text)[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [3.0, 20.0])
 def test_a_zoom_is_planned_within_its_rate_and_proved(rate: float) -> None:
     done = compile_source(ZOOM.replace("RATE", f"{rate} deg/s").encode(), "z.yaml", None, PlanOptions("none"))

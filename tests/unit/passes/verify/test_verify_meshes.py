@@ -61,6 +61,7 @@ def test_a_flight_too_near_to_a_house_is_refused_at_the_rule():
     assert distances(made, middle[None])[0] < 2.0 + DRONE.radius
 
 
+@pytest.mark.slow
 def test_a_flight_through_a_wall_is_as_near_as_can_be():
     middle = places("shot")[len(places("shot")) // 2]
     _, ir = beside(middle[:2], more=middle[2] - 3.0)
@@ -74,6 +75,7 @@ def test_a_flight_inside_of_a_hall_is_no_flight_beside_it():
     assert claims(ir)[NAME].worst < -40.0
 
 
+@pytest.mark.slow
 def test_at_home_the_body_comes_no_nearer_than_its_pad_is():
     x, y, z = DRONE.home
     wall = np.array([[[x + 0.4, y - 9.0, 0.0], [x + 0.4, y + 9.0, 0.0], [x + 0.4, y, 9.0]]])

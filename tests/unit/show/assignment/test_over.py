@@ -267,6 +267,7 @@ def test_what_no_height_helps_is_no_move() -> None:
     assert lifted(ends, course, rising_paths(ends, course, never), (LIMITS, 1.0, "ease-in-out")) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arcs", [None, Gaps(1.0, 1.0)])
 def test_a_height_that_is_asked_for_is_reached_where_it_is(arcs: Gaps | None) -> None:
     """By how far along the fleet is: on straight ways b, on arcs the angle."""

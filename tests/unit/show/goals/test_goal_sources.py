@@ -132,6 +132,7 @@ def test_a_drawing_is_upright_and_scaled() -> None:
     assert points[:, 2].mean() == pytest.approx(20 / 6, abs=0.1)
 
 
+@pytest.mark.slow
 def test_shapes_that_overlap_are_filled_once_and_holes_not_at_all() -> None:
     square = '<rect x="0" y="0" width="50" height="50"/>'
     assert area(drawn(svg(square + square))) == pytest.approx(area(drawn(svg(square))), rel=0.02)

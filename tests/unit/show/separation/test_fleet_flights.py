@@ -189,6 +189,7 @@ def test_an_animation_keeps_its_times_its_ends_and_its_limits() -> None:
     assert same(at[:, 1], frames[-1].points)
 
 
+@pytest.mark.slow
 def test_a_jumpy_animation_is_bound_and_a_hopeless_one_is_told() -> None:
     base = lattice(8, [0, 0, 40], 4.0, 2)
     jumps = [base + np.array([(-1) ** k * 4.0, 0, 0]) for k in range(10)]
@@ -256,6 +257,7 @@ def test_curved_ways_that_come_too_near_are_mended() -> None:
     assert within_limits(flight)
 
 
+@pytest.mark.slow
 def test_places_that_are_too_near_are_told() -> None:
     points = lattice(20, [0, 0, 40], 0.8, 2)
     ir = goals((fleet(20),), (display(picture()),), {"show": [[points]]})

@@ -71,6 +71,7 @@ def test_a_hover_draws_back_from_any_side():
     assert still == pytest.approx(0 * away, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_no_lag_is_left_on_a_straight_line():
     flown = fly(*spline([[2.0 * k, 0, 5] for k in range(15)]), FleetConditions())
     steady = (flown.times > 8.0) & (flown.times < 14.0)
