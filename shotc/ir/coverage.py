@@ -42,9 +42,6 @@ from shotc.ir.trajectory import DroneTrajectory
 FRAMES_AT_ONCE = 512
 """Frames that are processed together, so that their rays fit the processor's cache."""
 
-HALF_SHARE = 0.5
-"""Share of the outline: a target with a smaller free share counts as hidden in that frame."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coverage:

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 from shotc.geom.vec import Vec2, Vec3, plus
 from shotc.geom.viewpoint import WHOLE_SIZE, RequiredView, stand, whole
-from shotc.ir.framed_course import MOST_LOST_SHARE, StartedFraming, aimed, at_place, evenly, places_of, shows
-from shotc.ir.framed_scene import LOST_SHARE, FramedScene, required_view_at
+from shotc.ir.framed_course import StartedFraming, aimed, at_place, evenly, places_of, shows
+from shotc.ir.framed_scene import FramedScene, required_view_at
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import OffsetPoints
 from shotc.ir.target import Target
 
@@ -35,8 +36,8 @@ def alone(scene: FramedScene) -> StartedFraming:
     sizes = SMALLER if subject.size is None else (subject.size,)
     tried = (_Beside(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition))
     first = _Beside(scene, lowest, places_of(subject.composition)[0], sizes[0])
-    whole = next((one for one in tried if one.is_whole()), first)
-    beside, points, (blocked, hidden), lost = _with_room(scene, target, whole)
+    fitting = next((one for one in tried if one.is_whole()), first)
+    beside, points, (blocked, hidden), lost = _with_room(scene, target, fitting)
     ideal = scene.shot.ideal
     assert ideal is not None
     shot = scene.shot._replace(ideal=ideal._replace(points=points), subjects=(at_place(subject, beside.uv),))
@@ -194,5 +195,5 @@ def _tried(scene: FramedScene, target: Target, beside: _Beside, points: OffsetPo
     eyes = [(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks]
     shares = scene.shares(eyes)
     # Where half of a subject is hidden, the hidden share is at least one half.
-    may_be_lost = shares[1] > LOST_SHARE * MOST_LOST_SHARE
+    may_be_lost = shares[1] > HALF_SHARE * HALF_SHARE
     return _Tried(beside, points, shares, scene.lost(eyes) if may_be_lost else 0.0)

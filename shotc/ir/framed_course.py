@@ -8,9 +8,8 @@ from shotc.geom.camera import aim_at
 from shotc.geom.pose_search import Pose
 from shotc.geom.vec import Vec2, Vec3, plus
 from shotc.geom.viewpoint import Lens
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import Composition, OffsetPoints, Shot, Subject
-
-MOST_LOST_SHARE = 0.5  # share of the frames in which a subject may be half hidden: more is an error (V050)
 
 
 class StartedFraming(NamedTuple):
@@ -39,7 +38,7 @@ def shows(blocked: float, lost: float) -> bool:
 
     blocked, lost : as in ``StartedFraming``
     """
-    return blocked < 1.0 and lost <= MOST_LOST_SHARE
+    return blocked < 1.0 and lost <= HALF_SHARE
 
 
 def places_of(composition: Composition) -> list[Vec2]:

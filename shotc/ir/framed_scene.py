@@ -8,7 +8,14 @@ from shotc.geom.viewpoint import Lens, PlaceBounds, PreferredPose, RequiredView
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
-from shotc.ir.hidden import hidden_by_surfaces, kept_solids, occluders_of, standing_before, without_room
+from shotc.ir.hidden import (
+    HALF_SHARE,
+    hidden_by_surfaces,
+    kept_solids,
+    occluders_of,
+    standing_before,
+    without_room,
+)
 from shotc.ir.ideal import ideal_place, offset_at
 from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
@@ -18,8 +25,6 @@ KNOT_S = 0.5  # seconds between the knots of a course
 CHANGING_KNOT_S = 0.25  # the same where setpoints change the requirements
 FEWEST, MOST = 8, 240  # pieces of a course
 BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged, if anything moves
-
-LOST_SHARE = 0.5  # hidden share of a subject from which on it counts as lost
 LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
 
@@ -134,7 +139,7 @@ class FramedScene:
         if hidden_on_purpose(self.shot):
             return 0.0
         covered = (self._covered(s, eyes) for s in self.shot.subjects)
-        return max(sum(share >= LOST_SHARE for share in shares) / len(eyes) for shares in covered)
+        return max(sum(share >= HALF_SHARE for share in shares) / len(eyes) for shares in covered)
 
     def _covered(self, subject: Subject, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
         """Return the hidden share of a subject from each place, 0 to 1."""

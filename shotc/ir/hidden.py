@@ -17,6 +17,12 @@ from shotc.ir.target import Target
 
 ROUNDING_M = 1e-6
 
+HALF_SHARE = 0.5
+"""Share of the outline: a target with a smaller free share counts as hidden in that frame.
+
+It is also a share of the frames: a shot that hides its target in more of them does not show it (V050).
+"""
+
 
 def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
     """Yield every owner that a drone at p, metres, is too near to at time t, and the lack, metres."""

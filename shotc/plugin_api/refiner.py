@@ -19,8 +19,9 @@ from shotc.geom.track_array import places
 from shotc.geom.vec import wrapped
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import flying, moved, parts_of_one, shapes
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
 from shotc.ir.drone import Drone
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.keyed import keeps_a_place, near_at
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Near

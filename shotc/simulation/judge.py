@@ -14,7 +14,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.sight import off_axis, outside
 from shotc.ir.bodies import shapes
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects

@@ -17,7 +17,8 @@ from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import pieces
 from shotc.geom.surface.distance import inf_distance
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.sampling import clock, framed, projected
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.path.lines import Polyline, straight_line

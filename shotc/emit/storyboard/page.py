@@ -26,7 +26,7 @@ from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
-from shotc.ir.coverage import HALF_SHARE
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.measures import SHARES
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR

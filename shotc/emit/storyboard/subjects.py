@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Shot

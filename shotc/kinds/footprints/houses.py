@@ -115,9 +115,9 @@ def houses_of(
         else:
             wrong.append(BuildingFault(footprint.name, footprint.number, shape))
     whole = _replaced(shapes)
-    house = _made(whole.left, height)
-    return house._replace(
-        wrong=(*wrong, *house.wrong),
+    houses = _made(whole.left, height)
+    return houses._replace(
+        wrong=(*wrong, *houses.wrong),
         uncovered=tuple(whole.uncovered),
         passed=len(footprints) - len(built),
         far=tuple(far),

@@ -59,15 +59,15 @@ def read_glb(data: bytes, most_corners: int) -> list[NodePart]:
     if needed:
         raise ValueError(f"its meshes are compressed ({', '.join(sorted(needed))}); export it without")
     parts: list[NodePart] = []
-    parts_of_nodes: dict[int, list[NodePart]] = {}
+    parts_of_meshes: dict[int, list[NodePart]] = {}
     count = 0
     for placed in _placed(file):
-        if placed.mesh not in parts_of_nodes:
+        if placed.mesh not in parts_of_meshes:
             mesh = file.item("meshes", placed.mesh)
-            parts_of_nodes[placed.mesh] = [
+            parts_of_meshes[placed.mesh] = [
                 _primitive(file, primitive) for primitive in mesh.get("primitives", [])
             ]
-        for own in parts_of_nodes[placed.mesh]:
+        for own in parts_of_meshes[placed.mesh]:
             count += len(own.corners)
             if count > most_corners:
                 raise ValueError(f"its scene has more than {most_corners} corners")

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.coverage import HALF_SHARE, coverage, covered_by_parts
+from shotc.ir.coverage import coverage, covered_by_parts
 from shotc.ir.framed import course_of
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.hiding_surfaces import NamedParts, parts_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.promise import Promise
 from shotc.ir.sampling import clock, framed, references
@@ -51,8 +52,7 @@ def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) ->
         for t, a, _ in _sampled(flight, legs)
     ]
     missing, where = max(gaps, key=lambda pair: pair[0])
-    limit = Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
-    yield claim(flight, limit, WorstValue(missing, float(where[0]), "sampled"))
+    yield claim(flight, _unframed(shot), WorstValue(missing, float(where[0]), "sampled"))
     errors = [
         _off(flight, shot.id, leg)
         for leg in _sampled(flight, legs)
@@ -60,14 +60,7 @@ def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) ->
     ]
     if errors:
         worst, time = max(errors)
-        limit = Limit(
-            "reference off its keyframes",
-            OFF_LINE_HALF_FRAMES,
-            "of half a frame",
-            shot.path,
-            hard=hard,
-            shot=shot.id,
-        )
+        limit = _off_place(shot, "reference off its keyframes", hard=hard)
         yield claim(flight, limit, WorstValue(worst, time, "sampled"))
 
 
@@ -89,17 +82,17 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         k = int(np.argmax(away))
         if away[k] > off:
             off, when = float(away[k]), float(t[k])
-    limit = Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
-    yield claim(flight, limit, WorstValue(missing, when, "sampled"))
-    off_place = Limit(
-        "reference off its composition",
-        OFF_LINE_HALF_FRAMES,
-        "of half a frame",
-        shot.path,
-        hard=hard,
-        shot=shot.id,
-    )
-    yield claim(flight, off_place, WorstValue(off, when, "sampled"))
+    yield claim(flight, _unframed(shot), WorstValue(missing, when, "sampled"))
+    limit = _off_place(shot, "reference off its composition", hard=hard)
+    yield claim(flight, limit, WorstValue(off, when, "sampled"))
+
+
+def _unframed(shot: Shot) -> Limit:
+    return Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
+
+
+def _off_place(shot: Shot, constraint: str, *, hard: bool) -> Limit:
+    return Limit(constraint, OFF_LINE_HALF_FRAMES, "of half a frame", shot.path, hard=hard, shot=shot.id)
 
 
 def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:

@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
-from shotc.ir.coverage import HALF_SHARE
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim

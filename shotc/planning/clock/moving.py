@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -208,20 +209,35 @@ def shortfalls(
         so a piece that keeps a half-space exactly may need its normal for the proof.
     """
     worst = np.full(len(hulls), least)
-    seen = []
-    for motion in motions:
-        part, relative = motion.what.part, relative_to(motion, hulls)
-        needed = motion.what.clearance + motion.deviation_bound
-        # Boxes apart prove a gap; boxes that meet say nothing of the depth.
-        box = box_gap(relative, part)
-        seen.append((part, needed, relative, np.where(box > 0.0, box, -np.inf)))
+    bounds = [_bound_of(motion, hulls) for motion in motions]
     # An obstacle is skipped on pieces where its bound shows that another one lacks more.
-    for part, needed, relative, box in sorted(seen, key=lambda one: -(one[1] - one[3]).max(initial=-np.inf)):
-        pieces = np.flatnonzero(needed - box > worst)
+    for bound in sorted(bounds, key=lambda each: -each.most.max(initial=-np.inf)):
+        pieces = np.flatnonzero(bound.most > worst)
         if len(pieces):
-            gap = np.maximum(box[pieces], _plane_gaps(part, relative, pieces, planes))
-            worst[pieces] = np.maximum(worst[pieces], needed[pieces] - gap)
+            gap = _plane_gaps(bound.motion.what.part, bound.relative, pieces, planes)
+            lack = np.minimum(bound.most[pieces], bound.needed[pieces] - gap)
+            worst[pieces] = np.maximum(worst[pieces], lack)
     return worst
+
+
+class _LackBound(NamedTuple):
+    """A bound on what pieces lack of the clearance from one motion.
+
+    relative : the pieces relative to it, (P, m, 3); needed, most : the gap that is needed, and the most that
+        they lack of it, metres, (P,)
+    """
+
+    motion: LinearMotion
+    relative: Array
+    needed: Array
+    most: Array
+
+
+def _bound_of(motion: LinearMotion, hulls: Array) -> _LackBound:
+    relative, needed = relative_to(motion, hulls), motion.what.clearance + motion.deviation_bound
+    # Boxes apart prove a gap; boxes that meet say nothing of the depth.
+    box = box_gap(relative, motion.what.part)
+    return _LackBound(motion, relative, needed, np.where(box > 0.0, needed - box, np.inf))
 
 
 def _plane_gaps(part: Solid, relative: Array, pieces: IntArray, planes: HalfSpaces) -> Array:

@@ -12,7 +12,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.surface.near import nearest
 from shotc.geom.surface.tree import surface_of
 from shotc.ir.allow import HIDDEN
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.passes import PassContext

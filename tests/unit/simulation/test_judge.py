@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.solids import Cylinder
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import Zone
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.rehearsal import RehearsalPromise

@@ -141,8 +141,9 @@ def farthest_past(references: ClockReferences, filmed: Mask) -> float:
 
 
 def _reach_past(references: ClockReferences, eyes: Array, filmed: Mask) -> Array:
-    """Return the same bound for each node, (N + 1,); a course ``eyes`` that is farther away already may
-    stay.
+    """Return how far the camera may be from its ideal place at each node, (N + 1,), metres.
+
+    A course ``eyes`` that is farther away already may stay.
     """
     off = np.linalg.norm(eyes - references.ideal, axis=1) + INNER_M
     most = INNER_SHARE * farthest_past(references, filmed)

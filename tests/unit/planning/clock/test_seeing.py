@@ -11,7 +11,8 @@ import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Array
-from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.coverage import coverage
+from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.keyed import place_of
 from shotc.ir.sampling import clock, framed, projected
 from shotc.ir.trajectory import VerifiedIR
