@@ -97,7 +97,7 @@ FRAMED: tuple[CodeInfo, ...] = (
     ),
     verified(
         24,
-        "promise-without-framing",
+        "framing-not-as-asked",
         (
             "the plan does not frame a target as its shot's keyframes say",
             "A picture is judged where the plan frames the target, against the reference in the plan. Between two "
