@@ -83,7 +83,7 @@ def bodies_about(blocks: Sequence[UprightPrism], most: int) -> tuple[EnclosingSh
     """Return at most ``most`` bodies that together contain all prisms; there is at least one prism."""
     course = _base(tuple(p for block in blocks for p in block.ring)).ahead
     pieces = [b._replace(ring=ring) for b in blocks for ring in _cut(b.ring, MOST_PIECES)]
-    return tuple(_body(body.blocks) for body in _few([_aligned((p,), course) for p in pieces], most))
+    return tuple(_body(body.blocks) for body in _few([_aligned(p, course) for p in pieces], most))
 
 
 def _base(points: Ring) -> _Base:
@@ -160,11 +160,9 @@ def _extent(points: Ring, axes: tuple[Vec2, Vec2]) -> float:
     return (b - a) * (d - c)
 
 
-def _aligned(blocks: tuple[UprightPrism, ...], course: Vec2) -> _Aligned:
-    points = [p for block in blocks for p in block.ring]
-    (a, b), (c, d) = _reach(points, course), _reach(points, (-course[1], course[0]))
-    low, high = min(block.bottom for block in blocks), max(block.top for block in blocks)
-    return _Aligned(blocks, (a, c, low), (b, d, high))
+def _aligned(block: UprightPrism, course: Vec2) -> _Aligned:
+    (a, b), (c, d) = _reach(block.ring, course), _reach(block.ring, (-course[1], course[0]))
+    return _Aligned((block,), (a, c, block.bottom), (b, d, block.top))
 
 
 def _few(bodies: list[_Aligned], most: int) -> list[_Aligned]:

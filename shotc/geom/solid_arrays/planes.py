@@ -27,9 +27,10 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
 
     hulls : shape (N, m, 3), each the hull of m points
     Returns unit normals (N, 3) that point away from the solid, and the gaps (N,): the least of
-    n.p - support(n) over each set, metres. A positive gap proves the distance and is within a few per cent of
-    it (alternating projections on the sets, the best normal is kept). A negative gap is minus the depth of
-    the set inside the solid.
+    n.p - support(n) over each set, metres. A positive gap proves the distance. It is within a few per cent of
+    it for a set that is at most a few times as wide as it is far (alternating projections on the sets, the
+    best normal is kept), and may be far less for a wider one. A negative gap proves nothing; for a set inside
+    the solid it is minus its depth.
     """
     starts = np.concatenate([hulls.mean(axis=1, keepdims=True), hulls], axis=1)
     if hulls.shape[1] == 2:  # projections converge slowly along a chord, whose nearest point is known

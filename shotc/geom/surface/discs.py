@@ -53,6 +53,9 @@ def _cells_about(
     """Return the first and last cell, along right and up, whose rays may meet discs, (K, 2) each.
 
     away : the points minus the eyes of their frames, (K, 3), metres
+    A ray that meets a disc of radius r passes its point, at depth d and distance l, by at most r, and at a
+    depth of d - r or more. So it meets the board, at depth D, within r D l / (d (d - r)) of the point's
+    projection.
     """
     normal = cross(boards.right, boards.up)
     normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH)[:, None]
@@ -61,7 +64,7 @@ def _cells_about(
     side = np.sign(depth)
     far, deep = np.sqrt(dot(away, away)), dot(away, normal[frame]) * side[frame]
     cosine = (deep - radius) / np.maximum(far, _NO_LENGTH)
-    clear = (cosine > STEEP_COSINE) & (deep > 2.0 * radius)
+    clear = cosine > STEEP_COSINE
     share = np.where(clear, deep / np.maximum(np.abs(depth), _NO_LENGTH)[frame], 1.0)
     on = away / share[:, None] - corner[frame]
     reach = radius / np.where(clear, share * cosine, 1.0)

@@ -93,7 +93,7 @@ def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, direction: Ar
     out = np.zeros(len(p), dtype=bool)
     if not len(surface) or not closed.any() or not len(p):
         return out
-    top = max(float(high[:, 2].max()) for high in surface.high[-1:])
+    top = float(surface.high[-1][:, 2].max())
     end = p + np.maximum(top + 1.0 - p[:, 2:], 0.0) * direction
 
     def meets(item: IntArray, low: Array, high: Array) -> Mask:

@@ -81,7 +81,7 @@ def _keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterat
             late.append((WorstValue(off, time, "exact"), keyframe))
         rests = keyframe.hold > 0 and placed.shot.keyframes[index].beside is None
         if rests or len(placed.keyframes) == 1:
-            end = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
+            end = phase.end if len(placed.keyframes) == 1 or time is None else time + keyframe.hold
             yield _still(flight, keyframe, (time, end), (placed.shot, index, phase))
     for name, unit, limit, errors in (
         ("distance from keyframes", "m", ON_PLACE, met),

@@ -7,7 +7,6 @@ the body may be as near to a solid as it is on its pad, but no nearer.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 
 import numpy as np
 
@@ -80,10 +79,11 @@ def _keep_out(
 
 def _keep_in(flight: JudgedFlight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
     radius = flight.drone.radius
-    worst = ProvedExtreme(-inf, -inf, 0.0)
-    for pieces, floor in ((free, True), (upright, False)):
-        bound = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
-        worst = bound if bound.proven > worst.proven else worst
+    bounds = [
+        sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
+        for pieces, floor in ((free, True), (upright, False))
+    ]
+    worst = max(bounds, key=lambda bound: bound.proven)
     margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)
     return bounded(flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), less(margin, radius))
 

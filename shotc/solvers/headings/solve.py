@@ -21,7 +21,7 @@ def solve_headings(task: HeadingTask, method: str = DEFAULT) -> Headings:
     """
     solver = SOLVERS[method]
     if len(task.yaw) == 1:
-        return Headings(Status.SOLVED, task.yaw, None)
+        return Headings(Status.SOLVED, task.yaw, None, complete=True)
     return solver(task)
 
 

@@ -74,15 +74,15 @@ class Headings:
     angles : shape (K,), unwrapped yaws at the keyframes; without a solution those tried first
     curve : over ``at``, one channel; None without a solution, or for a single keyframe
     nodes : number of nodes that the decoder visited; 0 for methods without one
-    complete : whether no other choice of turns can be cheaper; False if the decoder stopped at its cap or its
-        list ended before this was certain
+    complete : whether it is certain that no other choice of turns is cheaper; False for methods that compare
+        none, and if the decoder stopped at its cap or its list ended before this was certain
     """
 
     status: Status
     angles: Array
     curve: Piecewise | None
     nodes: int = 0
-    complete: bool = True
+    complete: bool = False
 
 
 def nearest_turns(yaw: Array) -> Array:

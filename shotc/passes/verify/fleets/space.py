@@ -85,13 +85,14 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
     radius = flight.fleet.radius
     near = np.minimum(radius, np.min([separation(s, pads)[0] for s in convex_parts(solid)], axis=0))
     clear = near >= radius
-    worst = ProvedExtreme(inf, inf, 0.0)
+    bounds = []
     if clear.any():
         some = FleetPieces(upright.low, upright.high, upright.ctrl[clear])
-        worst = less(nearest(some.bag(), solid, gap(radius)), radius)
+        bounds.append(less(nearest(some.bag(), solid, gap(radius)), radius))
     for drone in np.flatnonzero(~clear):
-        bound = less(inf_distance(upright.of(int(drone)), solid, gap(near[drone])), float(near[drone]))
-        worst = bound if bound.proven < worst.proven else worst
+        bound = inf_distance(upright.of(int(drone)), solid, gap(near[drone]))
+        bounds.append(less(bound, float(near[drone])))
+    worst = min(bounds, key=lambda bound: bound.proven)
     return bounded(flight, limit, worst, lambda p: signed_distance(solid, p) - near)
 
 

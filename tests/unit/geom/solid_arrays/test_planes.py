@@ -57,3 +57,38 @@ def test_a_gap_is_that_of_the_nearest_point_of_a_set_along_its_normal(solid: Sol
     least = np.einsum("nmd,nd->nm", hulls, normals).min(axis=1)
     assert gap == pytest.approx(least - support(solid, normals))
     assert (gap > 0.0).any()
+
+
+def around(foot: np.ndarray, normal: np.ndarray, far: float, rng: np.random.Generator) -> np.ndarray:
+    """Return five points whose hull is as far from a solid as a plane through its point ``foot`` says.
+
+    Three of them are in the plane at that distance, unevenly round the foot; two are farther.
+    """
+    one = np.cross(normal, [0.3, -0.5, 0.8])
+    one /= np.linalg.norm(one)
+    other = np.cross(normal, one)
+    turn = rng.uniform(0.0, 2.0 * pi) + np.array([0.0, 2.0, 4.2])
+    reach = rng.uniform(0.2, 2.0, 3) * far
+    at = foot + far * normal + reach[:, None] * (np.cos(turn)[:, None] * one + np.sin(turn)[:, None] * other)
+    beyond = at[:2] + rng.uniform(0.1, 3.0, (2, 1)) * far * normal + rng.normal(size=(2, 3))
+    beyond += np.maximum(0.0, far - (beyond - foot) @ normal)[:, None] * normal
+    return np.concatenate([at, beyond])
+
+
+@pytest.mark.parametrize("solid", [ROUND, SQUARE])
+def test_a_gap_is_within_a_few_per_cent_of_the_distance_of_a_hull(solid: Solid) -> None:
+    """The nearest point of the solid is at its upper rim, or a corner, and the normal points outward."""
+    rng = np.random.default_rng(3)
+    hulls, expected = [], []
+    for _ in range(60):
+        turn, rise = rng.uniform(0.1, pi / 2 - 0.1, 2)
+        normal = np.array([cos(turn) * cos(rise), np.sin(turn) * cos(rise), np.sin(rise)])
+        edge = np.array([3.0 + 6.0 * cos(turn), -4.0 + 6.0 * np.sin(turn), 8.0])
+        foot = edge if isinstance(solid, Cylinder) else np.array([10.0, 9.0, 8.0])
+        expected.append(rng.uniform(0.2, 15.0))
+        hulls.append(around(foot, normal, expected[-1], rng))
+    _, gap = separate(solid, np.array(hulls))
+    share = gap / np.array(expected)
+    assert (share <= 1.0 + 1e-9).all()
+    assert share.min() > 0.97
+    assert np.median(share) > 0.999

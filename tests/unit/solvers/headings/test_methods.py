@@ -281,3 +281,9 @@ def test_the_virtual_curve_begins_and_ends_with_the_asked_headings_to_the_last_b
     assert found.curve is not None
     at_keyframes = found.curve.ctrl[0, 0], *(found.curve(t) for t in problem.at[1:])
     assert [float(one[0]) for one in at_keyframes] == found.angles.tolist()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_only_a_method_that_compares_choices_says_that_none_is_cheaper(method: str) -> None:
+    assert solve_headings(task([0.0, 1.0, 2.5]), method).complete is (method == "winding")
+    assert solve_headings(task([0.4]), method).complete
