@@ -6,6 +6,19 @@ from tests.experiments.mutants.equivalent import Equivalent
 
 OF_GEOMETRY: tuple[Equivalent, ...] = (
     Equivalent(
+        "shotc/geom/bspline.py",
+        "first = np.arange(pieces)[:, None] + np.arange(1, 2 * DEGREE + 1)",
+        "1  ->  2",
+        "an eleventh knot of a piece that is not read",
+        1,
+    ),
+    Equivalent(
+        "shotc/geom/surface/inside.py",
+        "RAYS = np.array([[0.0719, 0.0331, 1.0], [-0.0417, 0.0973, 1.0], [0.0233, -0.0871, 1.0]])",
+        "0.0871  ->  1.0871",
+        "a ray in any direction crosses a closed body as many times, but for whole turns of two",
+    ),
+    Equivalent(
         "shotc/geom/separation.py",
         "for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:",
         "1  ->  2",

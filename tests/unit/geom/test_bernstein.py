@@ -92,7 +92,9 @@ def test_a_curve_lifts_off_where_it_first_leaves_its_start() -> None:
     [
         (np.array([0.0, 1.0]), np.zeros((2, 4, 3))),
         (np.array([0.0, 1.0]), np.zeros((4, 3))),
+        (np.array([0.0, 1.0]), np.zeros((1, 4))),
         (np.array([[0.0, 1.0]]), np.zeros((1, 4, 3))),
+        (np.array([[0.0], [1.0]]), np.zeros((1, 4, 3))),
         (np.array([0.0]), np.zeros((0, 4, 3))),
         (np.array([0.0, np.nan]), np.zeros((1, 4, 3))),
         (np.array([0.0, 1.0]), np.full((1, 4, 3), np.inf)),

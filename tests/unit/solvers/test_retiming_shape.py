@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
-from shotc.solvers.retiming_socp import Iterate, _Shape, cell_times, start_from, triangular
+from shotc.solvers.retiming_socp import Iterate, NormLimit, _Model, _Shape, cell_times, start_from, triangular
 
 
 class Motion:
@@ -83,3 +85,128 @@ def test_columns_in_a_basis_of_their_own_keep_lengths_and_angles_and_only_the_ro
     assert products[1] == pytest.approx(products[0], abs=1e-9)
     single = columns[:, :, :1]
     assert (triangular(single) == single).all()
+
+
+class Rows:
+    """The rows of a cone programme, evaluated for its unknowns as they come."""
+
+    def __init__(self, x: np.ndarray) -> None:
+        self.x, self.unknowns = x, len(x)
+        self.zeros: list[np.ndarray] = []
+        self.bounds: list[np.ndarray] = []
+        self.norms: list[tuple[np.ndarray, np.ndarray]] = []
+        """Bounds, and the norms that are to be below them."""
+
+    def value(self, terms: list[Any]) -> np.ndarray:
+        return np.asarray(sum(coefficient * self.x[at] for at, coefficient in terms))
+
+    def zero(self, terms: list[Any]) -> None:
+        self.zeros.append(self.value(terms))
+
+    def positive(self, constant: np.ndarray, terms: list[Any]) -> None:
+        self.bounds.append(constant + self.value(terms))
+
+    def second_order(self, constant: np.ndarray, parts: list[Any], rest: list[Any] | None = None) -> None:
+        others = [0.0] * (len(parts) - 1) if rest is None else rest
+        below = [more + self.value(part) for part, more in zip(parts[1:], others, strict=True)]
+        bound = constant + self.value(parts[0])
+        self.norms.append((bound, np.sqrt(sum(np.broadcast_to(b, bound.shape) ** 2 for b in below))))
+
+
+def model(motion: Motion) -> tuple[_Model, Rows]:
+    """Return the programme about a motion, and what its rows are for that motion."""
+    made = _Model(motion.widths, Iterate(motion.v**2, motion.a))
+    rows = Rows(made.start())
+    made.rows = rows  # type: ignore[assignment]
+    return made, rows
+
+
+def limit(motion: Motion, seed: int) -> NormLimit:
+    """Derivatives of a path in space that are others at every place."""
+    return NormLimit(*np.random.default_rng(seed).normal(size=(3, len(motion.widths), 3, 3)))
+
+
+def places(motion: Motion) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Return speed squared, speed and acceleration at the start, middle and end of each cell."""
+    at = (np.zeros(len(motion.widths)), motion.shape().middle, np.ones(len(motion.widths)))
+    return [(v**2, v, a) for _, v, a in map(motion.at, at)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_acceleration_is_bounded_at_nodes_and_in_the_middle(seed: int) -> None:
+    motion = Motion(seed)
+    given = limit(motion, seed)
+    made, rows = model(motion)
+    made.acceleration(given)
+    start, middle, _ = (
+        np.linalg.norm(given.d2[:, k] * b[:, None] + given.d1[:, k] * a[:, None], axis=1)
+        for k, (b, _, a) in enumerate(places(motion))
+    )
+    for (bound, found), expected in zip(rows.norms, (start[1:], middle), strict=True):
+        assert bound == pytest.approx(1.0)
+        assert found == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_jerk_is_bounded_at_both_ends_and_in_the_middle(seed: int) -> None:
+    motion = Motion(seed)
+    given = limit(motion, seed)
+    made, rows = model(motion)
+    made.jerk(given)
+    for k, ((bound, found), (b, v, a)) in enumerate(zip(rows.norms, places(motion), strict=True)):
+        third = given.d3[:, k] * (v * b)[:, None] + 3.0 * given.d2[:, k] * (v * a)[:, None]
+        assert bound == pytest.approx(1.0)
+        assert found == pytest.approx(np.linalg.norm(third + given.d1[:, k] * motion.jerks[:, None], axis=1))
+
+
+def test_a_limit_of_one_row_is_two_bounds() -> None:
+    motion = Motion(0)
+    along = np.zeros((3, len(motion.widths), 3, 2))
+    along[0, :, :, 0], along[1, :, :, 0] = 0.3, -0.1
+    made, rows = model(motion)
+    made.acceleration(NormLimit(*along))
+    assert not rows.norms
+    (b, _, a), (b_middle, _, a_middle), _ = places(motion)
+    for k, (squared, rate) in enumerate(((b[1:], a[1:]), (b_middle, a_middle))):
+        used = 0.3 * rate - 0.1 * squared
+        both = np.sort(rows.bounds[2 * k : 2 * k + 2], axis=0)
+        assert both == pytest.approx(np.sort([1.0 - used, 1.0 + used], axis=0))
+
+
+def test_a_motion_keeps_its_own_rows_and_caps_are_shares() -> None:
+    motion = Motion(1)
+    made, rows = model(motion)
+    made.motion()
+    assert np.abs(rows.zeros[-1]).max() < 1e-12
+    (b, _, _), (b_middle, _, _), _ = places(motion)
+    nodes, middles = np.linspace(20.0, 40.0, len(motion.v)), np.linspace(30.0, 50.0, len(motion.widths))
+    made.caps(nodes, middles)
+    inner, between = rows.bounds
+    assert inner == pytest.approx(1.0 - b[1:] / nodes[1:-1])
+    assert between == pytest.approx(1.0 - b_middle / middles)
+
+
+def test_the_cones_of_time_are_met_with_equality_by_a_motion_alone() -> None:
+    motion = Motion(2)
+    made, rows = model(motion)
+    made.times()
+    for bound, found in rows.norms:
+        assert bound == pytest.approx(2.0)
+        assert found == pytest.approx(2.0)
+    assert made.total_time() @ made.start() == pytest.approx(1.0)
+    rows.norms.clear()
+    rows.x = rows.x.copy()
+    rows.x[2 * made.nodes : 3 * made.nodes] *= 1.01  # speeds above the roots of their squares
+    made.times()
+    root, inverse = rows.norms
+    assert (root[1] > root[0]).all()
+    assert (inverse[1] < inverse[0]).all()
+
+
+def test_rest_at_both_ends_is_asked_of_every_unknown_there() -> None:
+    made, rows = model(Motion(3))
+    rows.x = np.zeros_like(rows.x)
+    for first in (0, made.nodes, 2 * made.nodes):
+        rows.x[first], rows.x[first + made.nodes - 1] = 3.0, 5.0
+    made.motion()
+    assert [found.tolist() for found in rows.zeros[:3]] == [[3.0, 5.0]] * 3

@@ -7,10 +7,16 @@ from typing import Any
 
 import pytest
 
+from shotc.geom.solids import Cylinder
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import Zone
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import TrajectoryIR
 from shotc.ir.transits import TransitInterval
 from shotc.passes.verify import passing
 from shotc.passes.verify.passing import PLAY_M, ClosestPass
-from shotc.passes.verify.transits import ENDING
+from shotc.passes.verify.transits import ENDING, transits
+from tests.support.plain_flights import RADIUS_M, plain_flight, plain_mission
 
 
 def together(*passes: tuple[str, float]) -> list[tuple[Any, ClosestPass]]:
@@ -63,3 +69,37 @@ def test_a_required_clearance_is_refused_by_the_name_of_its_setting(monkeypatch:
     found = passing._refused(SimpleNamespace(), claim, passed)  # type: ignore[arg-type]
     assert found.help.startswith("lower `transit_clearance.filmed` to 1.9")
     assert "on the way home" in found.message
+
+
+@pytest.mark.parametrize(
+    ("closer", "first", "count"),
+    [(0.5, 1, 2), (1e-4, 0, 2), (0.0, 0, 2), (-1e-4, 0, 2), (-0.5, 0, 2), (-1.5, 0, 1)],
+)
+def test_passes_are_told_from_the_nearest_and_equal_ones_in_time(
+    closer: float, first: int, count: int
+) -> None:
+    """A drone passes a mast by 1.9 m, and by so much less on its way back; it is to keep 3 m."""
+    mast = Zone(
+        "mast", "out", Cylinder((20.0, 3.0), 3.0 - 1.9 - RADIUS_M, 0.0, 40.0), ("world", "zones", "mast")
+    )
+    mission = plain_mission(zones=(mast,))
+    way = (
+        (0.0, (0.0, 0.0, 0.0)), (4.0, (0.0, 0.0, 10.0)), (14.0, (40.0, 0.0, 10.0)),
+        (15.0, (40.0, closer, 10.0)), (25.0, (0.0, closer, 10.0)),
+        (26.0, (0.0, 0.0, 10.0)), (30.0, (0.0, 0.0, 0.0)),
+    )  # fmt: skip
+    phases = (
+        Phase("takeoff", None, 0.0, 4.0), Phase("transit", None, 4.0, 14.0),
+        Phase("shot", "half", 14.0, 15.0), Phase("return", None, 15.0, 26.0), Phase("land", None, 26.0, 30.0),
+    )  # fmt: skip
+    flight = plain_flight(mission, way, phases)
+    (claim,) = transits(flight)
+    ir = TrajectoryIR(KeyframeIR(mission, ()), (flight.track,), (), ())
+    found = passing._passes(ir, claim)
+    assert len(found) == count
+    assert found[0].interval.start == (4.0, 15.0)[first]
+    expected = [1.9, 1.9 - closer]
+    assert [p.has for p in found] == pytest.approx([expected[p.interval.start > 9] for p in found], abs=1e-3)
+    assert [p.needs for p in found] == pytest.approx([3.0] * count)
+    assert all(abs(p.at - (9.0, 20.0)[p.interval.start > 9]) < 0.1 for p in found)
+    assert {p.name for p in found} == {"zone `mast`"}

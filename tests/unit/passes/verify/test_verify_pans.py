@@ -152,3 +152,17 @@ def test_a_camera_that_turns_there_and_back_has_turned_twice() -> None:
     assert _enough(track, track.phases[0], slow, False) == pytest.approx(
         PEAK_RATIO * turned * slowest(None), rel=1e-3
     )
+
+
+@pytest.mark.parametrize("centre", [1.3, 1.8, 3.7])
+def test_the_fastest_turn_is_looked_for_every_tenth_of_a_second(centre: float) -> None:
+    """A turn of one second about a moment is found where it begins; a shot of five seconds has 41 windows."""
+    times = np.array([0.0, centre - 0.5, centre + 0.5, 5.0])
+    value = np.zeros((4, 7))
+    value[:, HFOV], value[2:, CAM_YAW] = np.radians(70), np.radians(40)
+    curve = quintic_hermite(times, value, np.zeros((4, 7)), np.zeros((4, 7)))
+    track = DroneTrajectory("cam", curve, (Phase("shot", "sweep", 0.0, 5.0),), (), ())
+    found = fastest(track, track.phases[0])
+    assert found is not None
+    assert found.time == pytest.approx(centre - 0.5, abs=1e-9)
+    assert found.width == pytest.approx(2 * np.tan(np.radians(35)) / np.radians(40))

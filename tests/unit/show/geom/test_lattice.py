@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
+from shotc.show.geom import lattice as module
 from shotc.show.geom.lattice import Mould, laid, lattice, widest
 from shotc.show.geom.layers import layered, layers_of
 
@@ -104,3 +105,13 @@ def test_a_lattice_fills_its_mould_from_end_to_end(upright: bool) -> None:
     assert found[:, 0].max() > 12.0 + slack - 1.0
     assert found[:, 1].min() < 0.0 < found[:, 1].max()
     assert np.linalg.norm(found[:, None] - bar, axis=2).min(axis=1).max() <= slack
+
+
+@pytest.mark.parametrize(("most", "empty"), [(63, True), (64, False)])
+def test_a_lattice_of_too_many_points_is_not_laid(
+    most: int, empty: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A box of 2.5 steps has at most four rows, four columns and four layers."""
+    monkeypatch.setattr(module, "MOST_POINTS", most)
+    filled = np.stack(np.meshgrid(*[np.linspace(0.0, 2.1, 22)] * 3), axis=-1).reshape(-1, 3)
+    assert (len(laid(Mould(cKDTree(filled), 0.2, True), 1.0)) == 0) == empty
