@@ -96,7 +96,8 @@ def test_in_a_wind_the_speed_through_the_air_counts(spare: float) -> None:
     assert "speed" not in found
     assert found["airspeed"].worst == pytest.approx(worst, rel=1e-6)
     assert found["airspeed"].holds == (spare > 0)
-    assert claims({}, wind=(2.0, -1.0))["airspeed"].worst == pytest.approx(hypot(2.0, 1.0))
+    for wind in ((2.0, -1.0), (2.0, 0.0), (0.0, -1.0)):
+        assert claims({}, wind=wind)["airspeed"].worst == pytest.approx(hypot(*wind))
 
 
 @pytest.mark.parametrize("spare", [SPARE, -SPARE])
@@ -157,3 +158,12 @@ def test_a_lens_without_data_is_a_pinhole(spare: float) -> None:
     found = claims({HFOV: radians(169.0) - 2 * spare}, {HFOV: radians(1.0) + spare}, lens=None)
     assert found["field of view min"].holds == found["field of view max"].holds == (spare > 0)
     assert "zoom rate" not in found
+
+
+def test_turns_of_a_camera_count_from_its_first_instant() -> None:
+    mission = plain_mission()
+    ctrl = np.full((1, 2, 7), 1.2)
+    ctrl[0, :, CAM_YAW] = 1.3, 21.3  # at once at full rate, three turns
+    track = DroneTrajectory("cam1", Piecewise(np.array([0.0, LENGTH_S]), ctrl), (), (), ())
+    found = {c.constraint: c.worst for c in motion(JudgedFlight(mission, mission.drones[0], track))}
+    assert (found["gimbal yaw min"], found["gimbal yaw max"]) == pytest.approx((0.1, 20.1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, inf
 
 import pytest
 
@@ -169,3 +169,25 @@ def test_each_part_has_its_claims_and_no_more() -> None:
     assert set(claims(phases=in_air, **both)) == free
     on_pad = (Phase("takeoff", None, 0.0, 28.0),)
     assert set(claims(phases=on_pad, **both)) == upright | {"zone it at home"}
+
+
+@pytest.mark.parametrize("spare", [NEAR_M, -NEAR_M])
+@pytest.mark.parametrize("time", [9.0, 2.0])
+def test_the_ground_is_kept_clear_in_free_flight(time: float, spare: float) -> None:
+    dip = through((time, (20.0 * (time > 4), 0.0, 3.0)))
+    rules = replace(plain_mission().rules, ground_clearance=3.0 - RADIUS_M - spare)
+    claim = claims(dip, rules=rules)["ground clearance"]
+    assert claim.worst == pytest.approx((3.0 if time > 4 else 10.0) - RADIUS_M, abs=1e-5)
+    assert (claim.limit, claim.upper, claim.holds) == (3.0 - RADIUS_M - spare, False, spare > 0 or time < 4)
+
+
+@pytest.mark.parametrize("spare", [NEAR_M, -NEAR_M])
+@pytest.mark.parametrize("time", [2.0, 9.0, 26.0])
+def test_the_greatest_height_holds_for_verticals_too(time: float, spare: float) -> None:
+    high = through((time, (20.0 * (time == 9.0), 0.0, 30.0)))
+    rules = replace(plain_mission().rules, max_height=30.0 + spare)
+    claim = claims(high, rules=rules)["height above ground"]
+    assert claim.worst == pytest.approx(30.0, abs=1e-5)
+    assert (claim.upper, claim.holds, claim.time) == (True, spare > 0, time)
+    for none in (None, inf):
+        assert "height above ground" not in claims(rules=replace(rules, max_height=none))
