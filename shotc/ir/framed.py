@@ -17,6 +17,8 @@ started from the one before. Rules determine what the mission does not state:
 Several subjects appear less exactly as required where one of them would else be hidden in most frames.
 """
 
+from functools import lru_cache
+
 from shotc.ir.framed_alone import alone
 from shotc.ir.framed_course import StartedFraming
 from shotc.ir.framed_scene import FramedScene
@@ -40,5 +42,23 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
 
 def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
     """Return the course of a framing whose first frame is at ``start``, seconds."""
-    scene = FramedScene(mission, shot, start)
+    return _course_of(_OneMission(mission), shot, start)
+
+
+class _OneMission:
+    """A mission as a key: it equals only itself, since its spans cannot be hashed."""
+
+    def __init__(self, mission: MissionIR) -> None:
+        self.mission = mission
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _OneMission) and self.mission is other.mission
+
+    def __hash__(self) -> int:
+        return id(self.mission)
+
+
+@lru_cache(maxsize=8)  # planning, refinement and verification ask for the same course, up to 0.1 s each time
+def _course_of(key: _OneMission, shot: Shot, start: float) -> StartedFraming:
+    scene = FramedScene(key.mission, shot, start)
     return alone(scene) if len(shot.subjects) == 1 and scene.near is None else together(scene)
