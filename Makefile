@@ -83,7 +83,7 @@ mutants: $(STAMP) ## Put 1,000 seeded faults into verification, geometry and sol
 	$(BIN)/python -m tests.experiments.mutants $(MUTANTS)
 
 papers: $(STAMP) ## Run the papers' experiments; report in out/papers, tables in shotc/docs/papers.md
-	$(BIN)/python -m tests.experiments.papers --write-page
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.experiments.papers --write-page
 
 build: $(STAMP) ## Build the wheel of shotc and of each plugin
 ifdef UV
