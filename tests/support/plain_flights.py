@@ -8,7 +8,9 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.vec import Vec3
-from shotc.ir.mission import MissionIR
+from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Beside, MissionIR, Shot
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.claims import JudgedFlight
@@ -41,6 +43,28 @@ def lines(way: Sequence[tuple[float, Vec3]]) -> Piecewise:
     """Return all seven channels of a flight along straight lines; the camera looks East."""
     places = np.array([[*place, 0.0, 0.0, 0.0, 1.2] for _, place in way])
     return Piecewise(np.array([time for time, _ in way]), np.stack([places[:-1], places[1:]], axis=1))
+
+
+WEST, EAST = (0.0, 0.0, 10.0), (40.0, 0.0, 10.0)
+"""Where the shot of the hop begins, at 4 s, and ends, at 14 s."""
+
+
+def plain_keyframe(
+    at: Vec3, *, hold: float = 0.0, time: float | None = None, placed: bool = True, **changes: object
+) -> PlacedKeyframe:
+    """Return a keyframe of a camera that looks East, level, and frames nothing."""
+    plain = PlacedKeyframe(at, 0.0, 0.0, 1.2, None, None, None, hold, time, placed, ("shots", 0, "keyframes"))
+    return plain._replace(**changes)  # type: ignore[arg-type]
+
+
+def plain_shot(*keyframes: PlacedKeyframe, beside: Beside | None = None, **changes: object) -> PlacedShot:
+    """Return the shot ``out`` with keyframes; beside : of each of them as it is written."""
+    base = orbit_mission().shots[0]
+    written = tuple(
+        replace(base.keyframes[0], at=k.at, hold=k.hold, time=k.time, beside=beside) for k in keyframes
+    )
+    plain: Shot = replace(base, id="out", subject=None, keyframes=written, timing=Timing())
+    return PlacedShot(replace(plain, **changes), keyframes)
 
 
 def plain_flight(

@@ -7,7 +7,6 @@ free space for it. ``ir.transits`` defines the clearance at each place.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 
 import numpy as np
 
@@ -44,7 +43,7 @@ def _kept(
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
     bounds = [on_way(near, clearance, interval) for interval in ways(flight.track.phases)]
-    if not bounds or all(bound.proven == inf for bound in bounds):
+    if not bounds:
         return
     worst = first_least(bounds, gap(clearance))
     path = ("rules", "transit_clearance", apart.key)

@@ -72,6 +72,18 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
         "a larger box: more drones are bounded than need be",
     ),
     Equivalent(
+        "shotc/passes/verify/pair.py",
+        "best = ProvedExtreme(inf, inf, 0.0)",
+        "0.0  ->  1.0",
+        "the first pad is bounded and takes its place",
+    ),
+    Equivalent(
+        "shotc/passes/verify/pair.py",
+        "break",
+        "break  ->  continue",
+        "pads come in the order of their boxes: all that follow are farther, too",
+    ),
+    Equivalent(
         "shotc/show/solvers/own_heights.py",
         "found[:FIXED_POINTS], found[-FIXED_POINTS:] = ctrl[0], ctrl[-1]",
         "0  ->  1",

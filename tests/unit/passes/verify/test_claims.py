@@ -61,6 +61,7 @@ def test_a_claim_of_a_drone_has_the_place_at_its_time() -> None:
     assert claim(flight, limit, given).position == (7.0, 7.0, 7.0)
     found = bounded(flight, limit, ProvedExtreme(4.0, 3.0, 9.0))
     assert (found.worst, found.time, found.method, found.subject) == (4.0, 9.0, "bounded", "cam1")
+    assert (found.upper, found.hard, found.shot) == (True, True, None)
 
 
 @pytest.mark.parametrize(

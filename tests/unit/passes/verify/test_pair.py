@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from shotc.geom.vec import Vec3
@@ -98,3 +99,16 @@ def test_fleets_that_do_not_fly_stand_on_all_of_their_pads(spare: float) -> None
     assert (claim.limit, claim.holds, claim.constraint) == (5.0 - spare, spare > 0, "separation from swarm")
     assert claim.time is not None
     assert min(abs(claim.time - 9.0), abs(claim.time - 19.0)) < 0.1
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_nearest_pad_is_that_of_all(seed: int) -> None:
+    pads = np.random.default_rng(seed).uniform((-20.0, -20.0, 0.0), (60.0, 20.0, 20.0), (9, 3))
+    of = replace(mission(), fleets=(fleet(tuple(map(tuple, pads.tolist()))),))
+    track = DroneTrajectory("cam1", lines(HOP), PHASES, (), ())
+    ir = TrajectoryIR(KeyframeIR(of, ()), (track,), (), ())
+    (claim,) = from_fleets(ir, [JudgedFlight(of, of.drone("cam1"), track)])
+    way = track.curve(np.linspace(0.0, 28.0, 2801))[:, :3]
+    least = np.linalg.norm(way[:, None] - pads, axis=2).min()
+    assert claim.worst == pytest.approx(least, abs=5e-3)
+    assert claim.worst <= least

@@ -12,38 +12,21 @@ from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.keyed import KEYED
-from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Beside, Ideal, Shot
+from shotc.ir.mission import Beside, Ideal
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathDeviation
 from shotc.ir.phases import KeyframeTime, Phase
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.shots import shots
-from tests.support.film_plans import orbit_mission
-from tests.support.plain_flights import HOP, PHASES, lines, plain_mission
+from tests.support.plain_flights import EAST, HOP, PHASES, WEST, lines, plain_mission
+from tests.support.plain_flights import plain_keyframe as keyframe
+from tests.support.plain_flights import plain_shot as shot
 from tests.support.records import replace
 
-WEST, EAST = (0.0, 0.0, 10.0), (40.0, 0.0, 10.0)
-"""Where the shot begins, at 4 s, and ends, at 14 s."""
-
 MM = 1e-3
-WRITTEN = orbit_mission().shots[0]
-
-
-def keyframe(
-    at: Vec3, *, hold: float = 0.0, time: float | None = None, placed: bool = True
-) -> PlacedKeyframe:
-    return PlacedKeyframe(at, 0.0, 0.0, 1.2, None, None, None, hold, time, placed, ("shots", 0, "keyframes"))
-
-
-def shot(*keyframes: PlacedKeyframe, beside: Beside | None = None, **changes: object) -> PlacedShot:
-    written = tuple(
-        replace(WRITTEN.keyframes[0], at=k.at, hold=k.hold, time=k.time, beside=beside) for k in keyframes
-    )
-    plain: Shot = replace(WRITTEN, id="out", subject=None, keyframes=written, timing=Timing())
-    return PlacedShot(replace(plain, **changes), keyframes)
 
 
 def judged(

@@ -143,3 +143,11 @@ def test_a_flight_without_ways_has_no_claims() -> None:
         Phase("land", None, 34.0, 38.0),
     )
     assert not list(transits(plain_flight(world(mast(20.0, -6.0, 1.0)), WAY, all_shot)))
+
+
+@pytest.mark.parametrize("spare", [NEAR_M, -NEAR_M])
+def test_what_is_above_a_way_is_as_near_as_what_is_beside_it(spare: float) -> None:
+    bridge = Cylinder((20.0, 0.0), 2.0, 10.0 + 3.0 + RADIUS_M + spare, 40.0)
+    claim = claims(world(bridge))["zone mast0 on transits"]
+    assert claim.worst == pytest.approx(3.0 + spare, abs=1e-5)
+    assert claim.holds == (spare > 0)

@@ -1,0 +1,309 @@
+"""That a shot with keyframes is flown along its path, in order and as aimed: each limit on both sides."""
+
+from __future__ import annotations
+
+from math import cos, inf, pi
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.shapes import CylinderShape
+from shotc.geom.solids import Cylinder
+from shotc.geom.vec import Vec3
+from shotc.ir.drone import LensRange
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.mission import Zone
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathDeviation
+from shotc.ir.phases import KeyframeTime
+from shotc.ir.preference import PICTURE_SHARE
+from shotc.ir.target import Target
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.passes.verify.claims import JudgedFlight
+from shotc.passes.verify.course import course
+from tests.support.plain_flights import EAST, HOP, PHASES, WEST, lines, plain_mission
+from tests.support.plain_flights import plain_keyframe as keyframe
+from tests.support.plain_flights import plain_shot as shot
+from tests.support.records import replace
+
+Way = tuple[tuple[float, Vec3], ...]
+MIDDLE = (20.0, 0.0, 10.0)
+BOTH = (keyframe(WEST), keyframe(EAST))
+GENERATED = (keyframe(WEST, placed=False), keyframe(EAST, placed=False))
+MAST = Target("mast", (20.0, 100.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "mast"))
+ORDER, PATH, ENDS, DETOUR, WAY = (
+    "keyframes out of order",
+    "distance from its path",
+    "distance from its ends",
+    "detour where it is free",
+    "way between keyframes",
+)
+
+
+def judged(
+    placed: PlacedShot,
+    *,
+    way: Way = HOP,
+    curve: Piecewise | None = None,
+    met: tuple[tuple[int, float], ...] = ((0, 4.0), (1, 14.0)),
+    told: tuple[PathDeviation, ...] = (),
+    lens: LensRange | None = None,
+    **world: object,
+) -> dict[str, Claim]:
+    mission = plain_mission(**world)
+    mission = replace(mission, drones=(replace(mission.drones[0], lens=lens),))
+    reached = tuple(KeyframeTime("out", i, t) for i, t in met)
+    track = DroneTrajectory("cam1", lines(way) if curve is None else curve, PHASES, reached, ())
+    ir = TrajectoryIR(KeyframeIR(mission, (placed,)), (track,), told, ())
+    return {c.constraint: c for c in course(JudgedFlight(mission, mission.drones[0], track), ir)}
+
+
+def through(*places: tuple[float, Vec3]) -> Way:
+    return tuple(sorted((dict(HOP) | dict(places)).items()))
+
+
+def test_shots_of_others_on_their_own_clock_or_not_flown_are_not_judged_here() -> None:
+    assert judged(shot(*BOTH, drone="cam2")) == {}
+    assert judged(shot(*BOTH, id="back")) == {}
+    assert judged(shot(*BOTH, ideal=object())) == {}
+    assert ORDER in judged(shot(*BOTH))
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "worst"),
+    [
+        (4.0, 14.0, 0.0), (4.0009, 14.0, 9e-4), (4.0011, 14.0, 11e-4), (3.9991, 14.0, 9e-4),
+        (3.9989, 14.0, 11e-4), (4.0, 13.9991, 9e-4), (4.0, 13.9989, 11e-4), (4.0, 14.0009, 9e-4),
+        (4.0, 14.0011, 11e-4), (6.0, 12.0, 2.0),
+    ],
+)  # fmt: skip
+def test_the_first_and_the_last_keyframe_are_the_ends_of_the_shot(
+    first: float, last: float, worst: float
+) -> None:
+    claim = judged(shot(*BOTH), met=((0, first), (1, last)))[ORDER]
+    assert claim.worst == pytest.approx(worst, abs=1e-9)
+    assert (claim.limit, claim.holds) == (1e-3, worst < 1e-3)
+
+
+def test_before_and_after_keyframes_with_times_the_camera_may_stand() -> None:
+    timed = shot(keyframe(WEST, time=1.0), keyframe(EAST, time=8.0))
+    assert judged(timed, met=((0, 5.0), (1, 12.0)))[ORDER].worst == 0.0
+    assert judged(timed, met=((0, 3.9), (1, 12.0)))[ORDER].worst == pytest.approx(0.1)
+    assert judged(timed, met=((0, 5.0), (1, 14.2)))[ORDER].worst == pytest.approx(0.2)
+    one = shot(keyframe(WEST))
+    assert judged(one, met=((0, 4.0),))[ORDER].worst == 0.0
+    assert judged(one, met=((0, 5.0),))[ORDER].worst == pytest.approx(1.0)
+
+
+def test_keyframes_follow_one_another_with_their_holds() -> None:
+    held = shot(keyframe(WEST), keyframe(MIDDLE, hold=2.0), keyframe(EAST))
+    for middle, worst in ((9.0, 0.0), (12.0, 0.0), (12.5, 0.5), (3.0, 1.0)):
+        claim = judged(held, met=((0, 4.0), (1, middle), (2, 14.0)))[ORDER]
+        assert claim.worst == pytest.approx(worst)
+    last = shot(keyframe(WEST), keyframe(EAST, hold=2.0))
+    assert judged(last, met=((0, 4.0), (1, 12.0)))[ORDER].worst == 0.0
+    assert judged(last, met=((0, 4.0), (1, 14.0)))[ORDER].worst == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("met", [((0, 4.0),), ((0, 4.0), (1, 9.0), (1, 14.0)), ((0, 4.0), (2, 14.0)), ()])
+def test_every_keyframe_is_met_once(met: tuple[tuple[int, float], ...]) -> None:
+    claim = judged(shot(*BOTH), met=met)[ORDER]
+    assert (claim.worst, claim.holds) == (inf, False)
+
+
+@pytest.mark.parametrize(("beyond", "holds"), [(0.2499, True), (0.2501, False)])
+def test_a_generated_path_is_left_by_its_bow_and_a_quarter_of_a_metre(beyond: float, holds: bool) -> None:
+    """The bow between two keyframes may be a quarter of their distance."""
+    bent = through((9.0, (20.0, 10.0 + beyond, 10.0)))
+    claim = judged(shot(*GENERATED), way=bent)[PATH]
+    assert claim.worst == pytest.approx(beyond, abs=1e-3)
+    assert (claim.limit, claim.holds) == (0.25, holds)
+    assert claim.time == pytest.approx(9.0, abs=0.01)
+
+
+@pytest.mark.parametrize(("off", "holds"), [(0.2499, True), (0.2501, False)])
+def test_at_a_generated_keyframe_there_is_no_bow(off: float, holds: bool) -> None:
+    three = shot(GENERATED[0], keyframe(MIDDLE, placed=False), GENERATED[1])
+    aside = through((9.0, (20.0, -off, 10.0)))
+    claim = judged(three, way=aside, met=((0, 4.0), (1, 9.0), (2, 14.0)))[PATH]
+    assert (claim.worst, claim.time, claim.holds) == (pytest.approx(off), 9.0, holds)
+
+
+def test_what_is_reported_and_explained_is_allowed() -> None:
+    """Two deviations at most count, as far as the picture and obstacles explain them."""
+
+    def limit(*distances: float, cause: str = "the picture", of: str = "out", **world: object) -> float:
+        told = tuple(PathDeviation(of, d, 0.0, cause) for d in distances)
+        return judged(shot(*GENERATED), told=told, **world)[PATH].limit
+
+    assert limit(0.5) == pytest.approx(0.75)
+    assert limit(0.1, 0.5, 0.3) == pytest.approx(1.05)
+    assert limit(0.5, of="back") == 0.25
+    assert limit(0.5, cause="zone tree") == 0.25
+    tree = Zone("tree", "out", Cylinder((20.0, 2.0), 1.0, 0.0, 6.0), ("world", "zones", "tree"))
+    assert limit(0.5, cause="zone tree", zones=(tree,)) == 0.25
+    tall = replace(tree, solid=tree.solid._replace(top=12.0))
+    assert limit(0.5, cause="zone tree", zones=(tall,)) == pytest.approx(0.75)
+    most = limit(1e6)
+    assert most == limit(1e3) < limit(1e6, zones=(tall,)) == pytest.approx(most + 12.0 + 2 * 1.5)
+
+
+@pytest.mark.parametrize("end", [0, 1])
+@pytest.mark.parametrize(("off", "holds"), [(0.499, True), (0.501, False)])
+def test_a_free_end_of_a_generated_path_is_met_to_half_a_metre(end: int, off: float, holds: bool) -> None:
+    places = [WEST, EAST]
+    x, y, z = places[end]
+    places[end] = (x, y + off, z)
+    wanted = tuple(keyframe(p, placed=False) for p in places)
+    claim = judged(shot(*wanted))[ENDS]
+    assert claim.worst == pytest.approx(off)
+    assert (claim.limit, claim.holds, claim.time) == (0.5, holds, (4.0, 14.0)[end])
+
+
+def near(away: float, keep: str = "out") -> dict[str, object]:
+    """A zone about both ends of the path: its wall is so far from the first of them."""
+    solid = Cylinder((-100.0, 0.0), 100.0 - away, 0.0, 50.0)
+    inside = Cylinder((0.0, 0.0), away, 0.0, 50.0)
+    kept = solid if keep == "out" else inside
+    return {"zones": (Zone("it", keep, kept, ("world", "zones", "it")),)}  # type: ignore[arg-type]
+
+
+def clearance(metres: float, name: str) -> dict[str, object]:
+    rules = replace(plain_mission().rules, **{name: metres})
+    return {"rules": rules}
+
+
+BODY_M = 0.5 + 1.0
+"""Radius of the drone, and how much farther an obstacle still counts."""
+
+
+@pytest.mark.parametrize("spare", [1e-3, -1e-3])
+@pytest.mark.parametrize("obstacle", ["zone", "fence", "ground", "target"])
+def test_an_end_that_an_obstacle_is_near_is_not_free(obstacle: str, spare: float) -> None:
+    beside = Target("mast", (0.0, 10.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "mast"))
+    world: dict[str, dict[str, object]] = {
+        "zone": near(BODY_M + spare),
+        "fence": near(BODY_M + spare, "in"),
+        "ground": clearance(10.0 - BODY_M - spare, "ground_clearance"),
+        "target": {"targets": (beside,)} | clearance(9.0 - BODY_M - spare, "target_clearance"),
+    }
+    off = keyframe((0.0, 0.0, 10.0), placed=False), keyframe((40.0, 0.0, 10.0), placed=False)
+    shifted = through((4.0, (0.0, 0.0, 10.4)), (3.9, (0.0, 0.0, 10.0)))
+    found = judged(shot(*off), way=shifted, **world[obstacle])
+    if obstacle == "ground":  # both ends are as high
+        assert (ENDS in found) == (spare > 0)
+        return
+    other_end_is_free = obstacle != "fence"
+    first = 0.4 if spare > 0 else 0.0
+    if not other_end_is_free and spare < 0:
+        assert ENDS not in found
+    else:
+        assert found[ENDS].worst == pytest.approx(first)
+
+
+@pytest.mark.parametrize("spare", [1e-3, -1e-3])
+def test_a_detour_where_it_is_free_is_a_share_of_the_distance_to_what_is_filmed(spare: float) -> None:
+    filmed = tuple(k._replace(target="mast") for k in GENERATED)
+    three = shot(filmed[0], keyframe(MIDDLE, placed=False, target="mast"), filmed[1])
+    off = 100.0 * (PICTURE_SHARE - spare)
+    aside = through((9.0, (20.0, 0.0, 10.0 + off)))
+    found = judged(three, way=aside, met=((0, 4.0), (1, 9.0), (2, 14.0)), targets=(MAST,))[DETOUR]
+    assert found.worst == pytest.approx(PICTURE_SHARE - spare)
+    assert (found.limit, found.holds, found.time) == (PICTURE_SHARE, spare > 0, 9.0)
+    unseen = shot(GENERATED[0], keyframe(MIDDLE, placed=False), GENERATED[1])
+    free = judged(unseen, way=aside, met=((0, 4.0), (1, 9.0), (2, 14.0)), targets=(MAST,))[DETOUR]
+    assert free.worst == 0.0
+
+
+@pytest.mark.parametrize(("beyond", "holds"), [(-1e-2, True), (1e-2, False)])
+def test_between_placed_keyframes_half_of_the_chord_is_allowed(beyond: float, holds: bool) -> None:
+    most = 0.5 * 40.0 + 0.25
+    bent = through((9.0, (20.0, 0.6 * (most + beyond), 10.0 + 0.8 * (most + beyond))))
+    found = judged(shot(*BOTH), way=bent)
+    claim = found[WAY]
+    assert claim.worst == pytest.approx(most + beyond, abs=1e-3)
+    assert (claim.limit, claim.holds) == (pytest.approx(most), holds)
+    assert not {PATH, ENDS, DETOUR} & set(found)
+
+
+def test_beside_a_longer_way_a_short_one_may_swing_as_far_and_holds_do_not_count() -> None:
+    """36 m until 9 s, a hold in which the camera is elsewhere, and 4 m."""
+    three = shot(keyframe(WEST), keyframe((36.0, 0.0, 10.0), hold=1.0), keyframe(EAST))
+    met = ((0, 4.0), (1, 9.0), (2, 14.0))
+    way = through(
+        (9.0, (36.0, 0.0, 10.0)),
+        (9.5, (36.0, 50.0, 10.0)),
+        (10.0, (36.0, 0.0, 10.0)),
+        (12.0, (38.0, 15.0, 10.0)),
+    )
+    claim = judged(three, way=way, met=met)[WAY]
+    assert claim.worst == pytest.approx(15.0, abs=1e-3)
+    assert claim.limit == pytest.approx(0.5 * 36.0 + 0.25)
+    assert claim.time == pytest.approx(12.0, abs=0.01)
+
+
+def turned(channel: int, by: float, time: float = 14.0) -> Piecewise:
+    """The hop with another value of a channel at one of its times."""
+    plain = lines(HOP)
+    k = int(np.searchsorted(plain.breaks, time))
+    ctrl = plain.ctrl.copy()
+    ctrl[k - 1, -1, channel] += by
+    ctrl[k, 0, channel] += by
+    return Piecewise(plain.breaks, ctrl)
+
+
+LENS, AIM, TURN = "lens off its keyframes", "direction off its keyframes", "turn off its keyframes"
+
+
+@pytest.mark.parametrize("time", [4.0, 14.0])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(("off", "holds"), [(0.99e-3, True), (1.01e-3, False)])
+def test_the_lens_is_that_of_the_keyframe(time: float, sign: float, off: float, holds: bool) -> None:
+    claim = judged(shot(*BOTH), curve=turned(HFOV, sign * off, time))[LENS]
+    assert (claim.worst, claim.limit) == (pytest.approx(off), 1e-3)
+    assert (claim.holds, claim.time) == (holds, time)
+
+
+def test_a_zoom_that_nobody_asked_for_is_free() -> None:
+    """The generated keyframe has the lens's own field of view, the placed one what its author chose."""
+    own = plain_mission().drones[0].hfov
+    zoom = LensRange(0.3, 1.4, 1.0)
+    for placed, expected in ((False, 0.0), (True, abs(1.2 - own))):
+        asked = tuple(keyframe(at, placed=placed, hfov=own) for at in (WEST, EAST))
+        assert judged(shot(*asked), lens=zoom)[LENS].worst == pytest.approx(expected, abs=1e-9)
+        assert judged(shot(*asked))[LENS].worst == pytest.approx(abs(1.2 - own), abs=1e-9)
+
+
+@pytest.mark.parametrize("channel", [CAM_YAW, CAM_PITCH])
+@pytest.mark.parametrize("turns", [0, 1, -2])
+@pytest.mark.parametrize(("off", "holds"), [(0.199, True), (-0.199, True), (0.201, False), (-0.201, False)])
+def test_a_camera_that_frames_nothing_looks_as_asked(
+    channel: int, turns: int, off: float, holds: bool
+) -> None:
+    by = off + 2 * pi * turns * (channel == CAM_YAW)
+    claim = judged(shot(*BOTH), curve=turned(channel, by))[AIM]
+    assert claim.worst == pytest.approx(abs(off))
+    assert (claim.limit, claim.holds, claim.time) == (0.2, holds, 14.0)
+    framed = tuple(k._replace(reference=(0.0, 0.0)) for k in BOTH)
+    assert judged(shot(*framed), curve=turned(channel, by))[AIM].worst == 0.0
+
+
+def test_straight_down_the_heading_counts_less() -> None:
+    steep = tuple(k._replace(pitch=-1.2) for k in BOTH)
+    curve = turned(CAM_PITCH, -1.2)
+    ctrl = curve.ctrl.copy()
+    ctrl[..., CAM_PITCH] = -1.2
+    ctrl[1, -1, CAM_YAW] = ctrl[2, 0, CAM_YAW] = 0.4
+    claim = judged(shot(*steep), curve=Piecewise(curve.breaks, ctrl))[AIM]
+    assert claim.worst == pytest.approx(0.4 * cos(1.2))
+
+
+@pytest.mark.parametrize(
+    ("by", "holds"), [(2.0 - 1.57, True), (2.0 - 1.58, False), (2.0 + 1.57, True), (2.0 + 1.58, False)]
+)
+def test_a_stated_turn_is_flown_to_a_quarter_of_a_turn(by: float, holds: bool) -> None:
+    stated: tuple[PlacedKeyframe, ...] = (BOTH[0], BOTH[1]._replace(turn=2.0, yaw=by))
+    claim = judged(shot(*stated), curve=turned(CAM_YAW, by))[TURN]
+    assert claim.worst == pytest.approx(abs(by - 2.0))
+    assert (claim.limit, claim.holds) == (pytest.approx(pi / 2), holds)
+    assert judged(shot(*BOTH), curve=turned(CAM_YAW, by))[TURN].worst == 0.0
