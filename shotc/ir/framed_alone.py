@@ -44,7 +44,7 @@ def alone(scene: FramedScene) -> StartedFraming:
     poses = tuple(
         aimed(target.at(t), scene.along(points, t), beside.place_at(t), scene.lens) for t in scene.times
     )
-    return StartedFraming(shot, scene.times, poses, blocked, hidden, lost)
+    return StartedFraming(shot, scene.times, poses, blocked, hidden, lost, scene.shot)
 
 
 class _Beside:

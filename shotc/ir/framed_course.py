@@ -1,5 +1,7 @@
 """The course of a framing, and what single and several subjects share. Plain Python."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from math import hypot, pi
 from typing import NamedTuple
@@ -18,6 +20,8 @@ class StartedFraming(NamedTuple):
     shot : with its ideal and its subjects' places on screen; times, poses : of the course
     blocked, hidden : share of the course at which the camera lacks a clearance; hidden share of a subject
     lost : share of the course from which half of a subject is hidden, as ``FramedScene.lost``
+    asked : the shot before its subjects had places on screen
+    avoided : the course of least cost, if this one is another since that one does not show its subjects
     """
 
     shot: Shot
@@ -26,6 +30,8 @@ class StartedFraming(NamedTuple):
     blocked: float
     hidden: float
     lost: float
+    asked: Shot
+    avoided: StartedFraming | None = None
 
     @property
     def shows(self) -> bool:

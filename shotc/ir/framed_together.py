@@ -43,7 +43,7 @@ def together(scene: FramedScene) -> StartedFraming:
     if course.shows:
         return course
     other = _course(FramedScene(scene.mission, scene.shot, scene.start, looks_past=True))
-    return other if other.shows else course
+    return other._replace(avoided=course) if other.shows else course
 
 
 def _course(scene: FramedScene) -> StartedFraming:
@@ -57,7 +57,7 @@ def _course(scene: FramedScene) -> StartedFraming:
     eyes = _eyes(scene.times, poses)
     blocked, hidden = scene.shares(eyes)
     framed = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
-    return StartedFraming(framed, scene.times, poses, blocked, hidden, scene.lost(eyes))
+    return StartedFraming(framed, scene.times, poses, blocked, hidden, scene.lost(eyes), shot)
 
 
 class _Opening(NamedTuple):

@@ -40,6 +40,18 @@ def ticks(rate: float, start: float, end: float) -> Array:
     return np.concatenate([[start], inside, [end]])
 
 
+def share_of_frames(good: Mask, counted: Mask) -> float:
+    """Return the share of samples that are good, shape (M,), 0 to 1.
+
+    A sample that is not counted lowers the share if it is bad, and does not raise it if it is good. So nobody
+    raises the share by samples at times of their choice.
+
+    counted : whether a sample is a frame or an end of its shot, shape (M,)
+    """
+    used = counted | ~good
+    return float(good[used].mean()) if used.any() else 1.0
+
+
 def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
     """Return the index of the phase at times t (M,), shape (M,).
 

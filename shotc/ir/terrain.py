@@ -28,10 +28,12 @@ class Terrain:
     """Ground of triangles, metres of W.
 
     file : its name, as the mission writes it; path : where that is written
+    of_earth : whether its heights were altitudes; else they counted from the plane z = 0 already
     """
 
     ground: Ground
     file: str
+    of_earth: bool = True
     path: KeyPath = ("world", "terrain", "file")
 
     def raised(self, metres: float) -> Terrain:

@@ -154,7 +154,9 @@ def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple
     """Return the numbers of one row, or its fault; line : from 1."""
     if len(cells) != len(columns):
         help_ = f"every row has the columns {','.join(columns)}; decimals have a point"
-        return FileFault(f"the row has {len(cells)} columns, not {len(columns)}", line, help_)
+        return FileFault(
+            f"the row has {len(cells)} column{'s' * (len(cells) != 1)}, not {len(columns)}", line, help_
+        )
     for cell, column in zip(cells, columns, strict=True):
         unit = UNITS.get(column, f"`{column}` is in metres")
         if not _is_number(cell):

@@ -131,7 +131,7 @@ def _model(spec: FilesSpec, scene: Scene, path: KeyPath) -> Model | Diagnostic:
         note = f"`{spec.files}` matches {len(names)} files, `{names[0]}` to `{names[-1]}`"
         label = scene.origins.value(where)
         return Diagnostic(
-            "D010", "this animation has no period", (label,), (note,), "add `period`, such as 1 s"
+            "D010", "this animation has no period", (label,), (note,), "add a period, such as `period: 1 s`"
         )
     if spec.units is None and spec.height is None:
         silent = next((name for name in names if not name.lower().endswith(METRES)), None)

@@ -153,7 +153,7 @@ def test_a_scene_half_under_the_ground_is_a_warning_that_says_what_it_may_be(tmp
     text = written(Bad(SCENE, half, "G032", 5), tmp_path)
     (told,) = check_source(text, "m.yaml", tmp_path).diagnostics
     assert (told.code, told.labels[0].span.line) == ("G032", 5)
-    assert "raise it by `at`" in (told.help or "")
+    assert "write `at: [0.0, 0.0, 3.0]`" in told.help
     assert compile_source(text, "m.yaml", tmp_path, PlanOptions(refiner="none")).plan is not None
 
 

@@ -68,7 +68,8 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "a scene is smaller than a drone, or lies where no drone of the mission flies",
         "A scene is larger than half a metre, and nothing is flown ten kilometres from the origin. Either "
         "the unit is wrong, or the coordinates count from somewhere else, as those of surveys do: then "
-        "subtract a round number from them in the program that made them, and give that place as `at`.",
+        "`at` says where it stands in the mission. A file of 32-bit numbers is exported anew for that "
+        "(G033).",
     ),
     _of_a_file(
         "G032",
@@ -89,7 +90,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "a scene's file holds 32-bit numbers, and its coordinates are so large that they are rounded",
         "STL, GLB and most PLY files hold 32-bit numbers of seven digits: at 5,000 km, where coordinates of surveys lie, "
         "these are half a metre apart, and what is proved would be of another scene. Export the scene with an offset, "
-        "and give the place of that offset as `at`; or as OBJ, which is text, or as PLY of doubles. A scene in millimetres has "
+        "and write as `at` where that offset is in the mission; or as OBJ, which is text, or as PLY of doubles. A scene in millimetres has "
         "coordinates as large: the help has the unit.",
     ),
     _of_a_file(

@@ -10,11 +10,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Frames
+from shotc.geom.pieces import Mask
 from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import clock, framed, projected, references, subjects
+from shotc.ir.sampling import clock, framed, projected, references, share_of_frames, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.close import errors_close, margins_close
@@ -27,7 +28,8 @@ from shotc.planning.framing.moments import placed_at
 class FramingSamples:
     """The samples of one target in one shot, at the times at which the shot frames it.
 
-    times : ticks of the output clock and both ends, shape (M,)
+    times : ticks of the output clock and the ends of what is framed, shape (M,)
+    counted : those of them that shares count: ticks and the ends of the shot, shape (M,)
     error : distance to the reference on screen; infinite behind the camera, NaN without a reference
     covered : share of the outline that something covers, shape (M,)
     """
@@ -35,6 +37,7 @@ class FramingSamples:
     shot: Shot
     target: str
     times: Array
+    counted: Mask
     frames: Frames
     error: Array
     covered: Array
@@ -67,7 +70,7 @@ def framing(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
         yield _in_frame(flight, view)
         yield from _screen_error(flight, view)
         yield from _size(flight, view)
-        yield from visible(flight, view.shot, view.target, view.times, view.covered)
+        yield from visible(flight, view.shot, view.target, view.times, (view.covered, view.counted))
 
 
 def view_of(flight: JudgedFlight, placed: PlacedShot, target: str, phase: Phase) -> FramingSamples | None:
@@ -88,12 +91,13 @@ def view_of(flight: JudgedFlight, placed: PlacedShot, target: str, phase: Phase)
     error = np.where(np.isnan(frames.u) & ~np.isnan(reference[:, 0]), inf, error)
     eyes = flight.track.curve(times)[:, :3]
     covered = coverage(flight.mission, flight.others, target, eyes, times).share
-    return FramingSamples(shot, target, times, frames, error, covered)
+    counted = np.isin(times, [*ticks, phase.start, phase.end])
+    return FramingSamples(shot, target, times, counted, frames, error, covered)
 
 
 def _in_frame(flight: JudgedFlight, view: FramingSamples) -> Claim:
     promised = view.shot.promise.in_frame
-    share = float(view.frames.in_frame.mean())
+    share = share_of_frames(view.frames.in_frame, view.counted)
     k = int(np.argmin(view.frames.margin))
     path = (*view.shot.path, "require", "in_frame") if promised is not None else view.shot.path
     limit = Limit(

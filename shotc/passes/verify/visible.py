@@ -11,6 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.mission import Shot
+from shotc.ir.sampling import share_of_frames
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
@@ -25,12 +26,15 @@ SAME_SHARE = 1e-9
 """Tolerance of equal shares of an outline."""
 
 
-def visible(flight: JudgedFlight, shot: Shot, target: str, times: Array, covered: Array) -> Iterator[Claim]:
+def visible(
+    flight: JudgedFlight, shot: Shot, target: str, times: Array, seen: tuple[Array, Mask]
+) -> Iterator[Claim]:
     """Yield claims on the visible share of a target: in any frame, in most frames, and for a reveal.
 
-    times : of the frames, (M,)
-    covered : share of the outline that something covers, (M,)
+    times : of the samples, (M,)
+    seen : share of the outline that something covers, (M,), and which samples shares count, (M,)
     """
+    covered, counted = seen
     free = 1.0 - covered
     yield _least(flight, shot, target, times, free)
     promised = shot.promise.visible is not None or shot.promise.reveal is not None
@@ -38,7 +42,9 @@ def visible(flight: JudgedFlight, shot: Shot, target: str, times: Array, covered
     limit = Limit(f"{target}{IN_SIGHT}", most, "of samples", shot.path, upper=False, hard=False, shot=shot.id)
     hidden = free < HALF_SHARE
     yield claim(
-        flight, limit, WorstValue(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled")
+        flight,
+        limit,
+        WorstValue(share_of_frames(~hidden, counted), float(times[longest(hidden)]), "sampled"),
     )
     if shot.promise.reveal is not None:
         first, last = shot.promise.reveal

@@ -204,6 +204,12 @@ def settings(text: str, scene: Scene) -> Iterator[dict[str, Any]]:
     if "what films it" in text:
         shots = [shot | new for shot in scene.root["shots"]]
         yield scene.root | {"shots": shots}
+    if "of every subject" in text:
+        shots = [
+            shot | {"subjects": [subject | new for subject in shot.get("subjects", ())]}
+            for shot in scene.root["shots"]
+        ]
+        yield scene.root | {"shots": shots}
     places = list(around(scene, text))
     first = [place for place in places if at(scene.root, (*place, next(iter(new)))) is not MISSING]
     replaced = re.findall(r"`([a-z_]+)`", text.partition(" in place of ")[2])
@@ -316,6 +322,7 @@ def bounds(text: str, scene: Scene) -> Iterator[dict[str, Any]]:
         (rf"above ({QUANTITY})", STRICT),
         (rf"({QUANTITY}) or (?:more|less|later|higher|nearer)", 0.0),
         (rf"start it at ({QUANTITY})", 0.0),
+        (rf"start it between {QUANTITY} and ({QUANTITY})", 0.0),
         (rf"(?:write|to|of) `?({QUANTITY})`?", 0.0),
         (rf"write (\[{NUMBER}[^\]]*\])", 0.0),
         (r"write `([^`:]+)`", 0.0),

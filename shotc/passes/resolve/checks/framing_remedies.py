@@ -32,6 +32,21 @@ def for_size(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most:
             return
 
 
+def for_sizes(fits: Fits, mission: MissionIR, shot: Shot, target: str, most: float) -> Iterator[str]:
+    """Yield a largest size, for one of several subjects or for all of them, if it is feasible.
+
+    shot : before its subjects have places on screen
+    most : size that the target has beside the others as written
+    """
+    size = down(min(most, LARGEST_SIZE), 3)
+    smaller = tuple(_at_most(s, size) for s in shot.subjects)
+    one = tuple(less if less.target == target else s for s, less in zip(shot.subjects, smaller, strict=True))
+    if fits(mission, shot._replace(subjects=one)):
+        yield f"ask for {size:g} or less"
+    elif fits(mission, shot._replace(subjects=smaller)):
+        yield f"ask for `size: {size:g}` or less of every subject"
+
+
 def for_size_and_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float
 ) -> Iterator[str]:
@@ -137,3 +152,10 @@ def as_at(
 
 def _with(shot: Shot, old: Subject, new: Subject) -> Shot:
     return shot._replace(subjects=tuple(new if s is old else s for s in shot.subjects))
+
+
+def _at_most(subject: Subject, size: float) -> Subject:
+    """Return a subject that is nowhere asked to be larger than a size."""
+    setpoints = tuple(s if s.size is None else s._replace(size=min(s.size, size)) for s in subject.setpoints)
+    own = None if subject.size is None else min(subject.size, size)
+    return subject._replace(size=own, setpoints=setpoints)

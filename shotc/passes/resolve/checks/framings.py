@@ -20,6 +20,7 @@ from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, Near, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.framing import beyond_gimbal
+from shotc.passes.resolve.checks.framing_detours import for_hidden, why_not_direct
 from shotc.passes.resolve.checks.framing_remedies import (
     as_at,
     for_azimuth,
@@ -29,6 +30,7 @@ from shotc.passes.resolve.checks.framing_remedies import (
     for_place,
     for_size,
     for_size_and_elevation,
+    for_sizes,
 )
 from shotc.rounding import up
 
@@ -57,7 +59,7 @@ def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = T
         yield blocked
         return
     if len(shot.subjects) > 1 or (shot.ideal is not None and shot.ideal.near is not None):
-        yield from _together(mission, course)
+        yield from _together(mission, course, advise)
 
 
 def _fits(mission: MissionIR, shot: Shot) -> bool:
@@ -247,7 +249,7 @@ class WorstFraming(NamedTuple):
     out: tuple[float, float]
 
 
-def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic]:
+def _together(mission: MissionIR, course: StartedFraming, advise: bool) -> Iterator[Diagnostic]:
     """Yield what several subjects cannot have at once."""
     shot, lens = course.shot, lens_of(mission.drone(course.shot.drone))
     notes: list[str] = []
@@ -259,9 +261,9 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
             appearance = judged(pose, lens, required)
             if appearance is not None:
                 seen.append((t, appearance, required))
-        apart = _apart(mission, course, subject, seen) if _known(mission, shot) else None
+        apart = _apart(mission, course, subject, seen, advise) if _known(mission, shot) else None
         if apart is not None:
-            yield apart
+            yield _with_reasons(mission, course, apart, advise)
             return
         if not seen:
             continue
@@ -284,7 +286,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
             "M034",
             f"{what} shot `{shot.id}` cannot all {'be had' if near else 'appear as asked'} at once",
             tuple(labels),
-            tuple(notes),
+            (*notes, *why_not_direct(mission, course)),
             "leave out what matters least, or make what matters most a promise by `require`",
         )
 
@@ -324,6 +326,7 @@ def _apart(
     course: StartedFraming,
     subject: Subject,
     seen: Sequence[tuple[float, SubjectAppearance, RequiredView]],
+    advise: bool,
 ) -> Diagnostic | None:
     """Return the fault of a subject that is out of the picture, or much too small because of others,
     or None.
@@ -354,13 +357,20 @@ def _apart(
     share, t, small, needed = min(sized, key=lambda entry: entry[0])
     if share * SIZES_APART_RATIO >= 1.0 or needed.size is None:
         return None
+    smaller = for_sizes(_fits, mission, course.asked, subject.target, small.size) if advise else ()
     return Diagnostic(
         "M033",
         f"`{subject.target}` cannot be {_share(needed.size)} of the frame high in one picture with {others}",
         (mission.origins.value(shot_key(mission, shot, subject, "size")),),
         (f"at t = {t:.1f} s its size is {_share(small.size)} where all are in the frame",),
-        f"ask for {_share(small.size)} or less, or film them in two shots",
+        ", or ".join((*smaller, "film them in two shots")),
     )
+
+
+def _with_reasons(mission: MissionIR, course: StartedFraming, fault: Diagnostic, advise: bool) -> Diagnostic:
+    """Return a fault of a course with what the course avoids, and with the key that switches this off."""
+    ways_out = (fault.help, *(for_hidden(_fits, mission, course) if advise else ()))
+    return fault._replace(notes=(*fault.notes, *why_not_direct(mission, course)), help=", or ".join(ways_out))
 
 
 def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, RequiredView]]) -> list[str]:

@@ -19,10 +19,11 @@ ALT = ("world", "origin", "alt")
 def check_level(mission: MissionIR, world: WorldSpec) -> Iterator[Diagnostic]:
     """Yield the fault of terrain whose ground at the origin is far from the altitude written there.
 
-    Terrain that is moved to the mission's height (`datum`) has no fault of this kind.
+    Terrain that is moved to the mission's height (`datum`), or whose heights count from the plane z = 0, has
+    no fault of this kind.
     """
     origin, terrain = mission.origin, mission.terrain
-    if origin is None or terrain is None or ALT not in mission.origins.values:
+    if origin is None or terrain is None or not terrain.of_earth or ALT not in mission.origins.values:
         return
     over = terrain.height(0.0, 0.0)
     if over is None or world.terrain is None or world.terrain.datum != "sea":

@@ -49,7 +49,7 @@ def relief(
     ground = relief_of(posts, box, origin, _offset(written, posts, geo))
     if not isinstance(ground, Relief):
         return fault(ground)
-    terrain = Terrain(ground.ground, name)
+    terrain = Terrain(ground.ground, name, of_earth=posts.system is not None)
     if written.datum != "home":
         return terrain
     home = every[0]

@@ -30,7 +30,9 @@ from shotc.kinds.models.reader import read_model
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import SCENE, Obstacles
 from shotc.requirements import remedy
+from shotc.rounding import up
 from shotc.spec.world import SceneSpec
+from shotc.units import LARGEST
 
 MOST_TRIANGLES = 4_000_000
 LARGEST_COORDINATE = 1e9
@@ -86,7 +88,7 @@ def scene_mesh(
     mesh = scene.mesh(parts)
     if isinstance(mesh, ModelFault):
         return Obstacles(faults=(_unusable(written, mesh, files),))
-    return Obstacles((mesh,), tuple(scene.doubts(mesh.surface.triangles.reshape(-1, 3), terrain)))
+    return Obstacles((mesh,), tuple(scene.doubts(parts, terrain)))
 
 
 def _unusable(written: SceneSpec, fault: ModelFault, files: Files) -> Diagnostic:
@@ -115,7 +117,7 @@ class _Scene(NamedTuple):
         grain = float(np.spacing(np.float32(most))) * self.placed.metres
         low, high = _box(parts)
         notes = [f"it holds 32-bit numbers, and they reach {most:.7g} {self._unit}"]
-        help_ = f"export it with {_rounded(0.5 * (low + high))} taken off, and give that place as `at`"
+        help_ = _moved(low, high)
         size = float((high - low).max()) * self.placed.metres
         if size > LARGE_M:
             notes.append(f"the scene measures {_length(size)}")
@@ -134,11 +136,17 @@ class _Scene(NamedTuple):
     def away(self, parts: list[NodePart]) -> Iterator[Diagnostic]:
         """Yield the fault of a scene that is out of the mission's range."""
         low, high = _box(parts)
-        middle = self._world(0.5 * (low + high)[None])[0]
+        corners = self._world(np.array([low, high]))
+        middle, foot = corners.mean(axis=0), float(corners[:, 2].min())
         away = float(np.linalg.norm(middle[:2]) - 0.5 * self.placed.metres * np.linalg.norm(high - low))
         if away > FARTHEST_M:
             message = f"the scene `{self.written.file}` is {away / 1000:.1f} km away from the world's origin"
-            help_ = f"take {_rounded(0.5 * (low + high))} off its coordinates, and give that place as `at`"
+            onto_origin = np.array(self.at) - [*middle[:2], foot]
+            help_ = (
+                f"write where it stands: {_key(onto_origin)} puts it on the world's origin"
+                if float(np.abs(onto_origin).max()) <= LARGEST["length"]
+                else _moved(low, high)
+            )
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), help_)
 
     def mesh(self, parts: list[NodePart]) -> ObstacleMesh | ModelFault:
@@ -169,34 +177,58 @@ class _Scene(NamedTuple):
             spacing=half,
         )
 
-    def doubts(self, corners: Array, terrain: Terrain | None) -> Iterator[Diagnostic]:
+    def doubts(self, parts: list[NodePart], terrain: Terrain | None) -> Iterator[Diagnostic]:
         """Yield warnings for a scene whose size, or height above ground, looks like a mistake."""
-        size = float(np.ptp(corners, axis=0).max())
+        low, high = _box(parts)
+        size = float((high - low).max()) * self.placed.metres
         if size > LARGE_M:
             message = f"the scene `{self.written.file}` measures {_length(size)}"
-            help_ = f"{self._fitting(size)}; leave it if it is so large"
+            help_ = f"{self._fitting(size)}, unless it is so large"
             yield Diagnostic("G030", message, self._label, (self._unit_says(),), help_)
-        some = corners[:: max(1, len(corners) // _SAMPLED_CORNERS)]
-        ground = np.zeros(len(some)) if terrain is None else height_at(terrain.ground, some[:, :2])
-        over = some[:, 2] - np.nan_to_num(ground)
+        over = self._over(parts, terrain)
         under = float(np.mean(over < -BELOW_M))
-        top = float(corners[:, 2].max() if terrain is None else over.max())
-        if under > UNDER_GROUND_SHARE and top < BELOW_M:
-            message = f"the scene `{self.written.file}` lies below the ground"
-            low, high = float(over.min()), max(0.0, top)
-            note = f"it reaches from {-low:.1f} m below the ground to {high:.1f} m above it"
-            help_ = f"turn it over in the program that made it, or raise it by {-low:.1f} m in `at`"
-            yield Diagnostic("G051", message, self._label, (note,), help_)
-        elif under > UNDER_GROUND_SHARE:
-            other = "z" if self.placed.up == "y" else "y"
-            low, high = float(some[:, 2].min()), float(some[:, 2].max())
-            yield Diagnostic(
-                "G032",
-                f"{100 * under:.0f} % of the scene `{self.written.file}` lies under the ground",
-                self._label,
-                (f"it reaches from z = {low:.1f} to {high:.1f} m, with `up: {self.placed.up}`",),
-                f"write `up: {other}` if that axis points up, or raise it by `at`",
-            )
+        if under > UNDER_GROUND_SHARE:
+            every = self._over(parts, terrain, most=None)
+            yield self._under_ground(under, every, self._other_axis(parts, terrain))
+
+    def _under_ground(self, under: float, over: Array, other: str | None) -> Diagnostic:
+        """Return the fault of a scene that lies under the ground, or the doubt about one that mostly does.
+
+        under : the share that does; over : heights above the ground, metres; other : the axis that puts it
+            above the ground if it points up, or None
+        """
+        low, high = float(over.min()), float(over.max())
+        x, y, z = self.at
+        lift = _key(np.array([x, y, z + up(-low, 1)]))
+        top = f"{high:.1f} m above it" if high > 0.0 else f"{-high:.1f} m below it"
+        ways_out = [f"write {lift}, which raises it by {up(-low, 1):.1f} m"]
+        if other is not None:
+            ways_out.insert(0, f"write `up: {other}` if that axis points up")
+        whole = high < BELOW_M
+        return Diagnostic(
+            "G051" if whole else "G032",
+            f"the scene `{self.written.file}` lies below the ground"
+            if whole
+            else f"{100 * under:.0f} % of the scene `{self.written.file}` lies under the ground",
+            self._label,
+            (f"it reaches from {-low:.1f} m below the ground to {top}, with `up: {self.placed.up}`",),
+            ", or ".join((*ways_out, *(("turn it over in the program that made it",) if whole else ()))),
+        )
+
+    def _over(
+        self, parts: list[NodePart], terrain: Terrain | None, most: int | None = _SAMPLED_CORNERS
+    ) -> Array:
+        """Return the heights above the ground of about so many corners, or of all, metres."""
+        corners = np.concatenate([p.corners for p in parts if len(p.corners)])
+        some = self._world(corners[:: 1 if most is None else max(1, len(corners) // most)])
+        ground = np.zeros(len(some)) if terrain is None else height_at(terrain.ground, some[:, :2])
+        return np.asarray(some[:, 2] - np.nan_to_num(ground))
+
+    def _other_axis(self, parts: list[NodePart], terrain: Terrain | None) -> str | None:
+        """Return the other axis, if the scene is above the ground where that one points up, or None."""
+        other = "z" if self.placed.up == "y" else "y"
+        turned = self._replace(placed=self.placed._replace(up=other))._over(parts, terrain)
+        return other if float(np.mean(turned < -BELOW_M)) <= UNDER_GROUND_SHARE else None
 
     def _world(self, corners: Array) -> Array:
         """Return positions of the file as positions in W; its north points along the heading."""
@@ -237,8 +269,19 @@ def _box(parts: list[NodePart]) -> tuple[Array, Array]:
     return np.asarray(low), np.asarray(np.max([corners.max(axis=0) for corners in filled], axis=0))
 
 
+def _moved(low: Array, high: Array) -> str:
+    """Return as a remedy how a file with large coordinates is exported."""
+    middle = _rounded(0.5 * (low + high))
+    return f"export it with {middle} taken off, and write as `at` where that place is in the mission"
+
+
 def _rounded(place: Array) -> str:
     return f"[{', '.join(f'{c:.6g}' for c in place + 0.0)}]"
+
+
+def _key(place: Array) -> str:
+    """Return a place as the key `at`, to 0.1 m."""
+    return f"`at: [{', '.join(f'{c:.1f}' for c in np.round(place, 1) + 0.0)}]`"
 
 
 def _length(metres: float) -> str:

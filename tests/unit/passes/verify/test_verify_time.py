@@ -1,6 +1,7 @@
 """Time has no gaps: nothing flies unseen between phases, through joints, or beside a row of a track."""
 
 from dataclasses import replace as changed
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
 from shotc.geom.track_array import places, rate_seen_from, seen_from
 from shotc.ir.phases import Phase
+from shotc.ir.sampling import share_of_frames
 from shotc.ir.target import Target
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify.shape import JOINTS, MOST_REPORTED, gaps
@@ -188,3 +190,34 @@ def test_the_rate_as_a_target_sees_it_is_that_of_the_place() -> None:
     assert np.allclose(seen_from(place, track)(t), relative(track, t), atol=1e-9)
     # The piece of a picosecond is no noise.
     assert np.abs(rate_seen_from(place, track).ctrl).max() < 20.0
+
+
+@pytest.mark.slow
+def test_a_framing_in_many_parts_does_not_show_more_frames() -> None:
+    # The camera looks over the tower from the middle of the shot on; each end of a part is a sample more.
+    framing = TRACK.framing[0]
+    ctrl = CURVE.ctrl.copy()
+    ctrl[int(np.searchsorted(CURVE.breaks, 37.0)) :, :, 4] += 0.9
+    looking_away = with_track(curve=Piecewise(CURVE.breaks, ctrl))
+    cuts = np.linspace(22.01, 36.0, 2000)
+    parts = [changed(framing, start=float(a), end=float(b)) for a, b in pairwise(cuts)]
+    whole, split = looking_away, with_track(looking_away, framing=(framing, *parts))
+    assert claim(whole, "tower in frame").worst == pytest.approx(0.5, abs=0.01)
+    assert claim(split, "tower in frame").worst == claim(whole, "tower in frame").worst
+    assert claim(split, "tower in sight").worst == claim(whole, "tower in sight").worst
+
+
+@pytest.mark.parametrize(
+    ("good", "counted", "share"),
+    [
+        ([1, 1, 0, 0], [1, 1, 1, 1], 0.5),
+        ([1, 1, 0, 0], [1, 0, 1, 1], 1 / 3),
+        ([1, 1, 0, 0], [1, 1, 1, 0], 0.5),
+        ([1, 1], [0, 1], 1.0),
+        ([1, 0], [1, 0], 0.5),
+    ],
+)
+def test_a_sample_that_is_no_frame_can_only_lower_a_share(
+    good: list[int], counted: list[int], share: float
+) -> None:
+    assert share_of_frames(np.array(good, dtype=bool), np.array(counted, dtype=bool)) == pytest.approx(share)
