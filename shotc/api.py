@@ -280,11 +280,12 @@ def emit_plan(
         if not isinstance(made, Emission):
             diagnostics.append(_not_made(emitter.name, made, code))
             continue
+        if saved and names is not None and not made.artifacts:
+            diagnostics.append(_nothing_made(emitter.name, made))
+            continue
         artifacts.extend(made.artifacts)
         diagnostics.extend(made.diagnostics)
         notes.extend(made.notes)
-        if saved and names is not None and not made.artifacts:
-            diagnostics.append(_nothing_made(emitter.name, made))
     if names is None:
         notes += _large(plan, emitter_names)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
@@ -302,10 +303,14 @@ def _large(plan: VerifiedIR, emitter_names: Collection[str]) -> Iterator[str]:
 
 
 def _nothing_made(name: str, made: Emission) -> Diagnostic:
-    """Return the error of an output that was requested by name and has no file for this plan."""
-    reasons = (*(d.message for d in made.diagnostics), *made.notes)
+    """Return the error of an output that was requested by name and has no file for this plan.
+
+    It takes the place of the emitter's own diagnostics, which are its reasons.
+    """
+    reasons = (*(text for d in made.diagnostics for text in (d.message, *d.notes)), *made.notes)
+    labels = tuple(label for d in made.diagnostics for label in d.labels)
     help_ = next((d.help for d in made.diagnostics if d.help), "leave it out of `--emit`")
-    return Diagnostic("E114", f"output `{name}` has no file for this plan", notes=reasons, help=help_)
+    return Diagnostic("E114", f"output `{name}` has no file for this plan", labels, reasons, help_)
 
 
 def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:

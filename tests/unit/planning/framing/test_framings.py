@@ -244,6 +244,7 @@ def test_what_lets_a_framing_be_had_does_when_it_is_written(rules: str, view: st
             assert any(not has_errors(told(corrected)) for corrected in remedy.missions), remedy.text
 
 
+@pytest.mark.long
 def test_subjects_too_far_apart_for_their_sizes_are_told_with_the_size_there_is() -> None:
     mission = text("target: runner, size: 0.3", "target: rider, size: 0.4").replace(
         "[60, 3, 1]", "[60, 80, 1]"
