@@ -21,6 +21,7 @@ from tests.support.records import replace
 module = import_module("shotc.passes.verify.framing")
 FLIGHT = plain_flight(plain_mission())
 TIMES = np.array([5.0, 6.0, 7.0, 8.0])
+EVERY = np.ones(len(TIMES), dtype=bool)
 
 
 def sampled(promise: Promise, **seen: list[float]) -> Any:
@@ -33,7 +34,7 @@ def sampled(promise: Promise, **seen: list[float]) -> Any:
     margin = np.array(values["margin"])
     frames = SimpleNamespace(margin=margin, in_frame=margin >= 0.0, size=np.array(values["size"]))
     shot = SimpleNamespace(id="out", path=("shots", 0), promise=promise)
-    return module.FramingSamples(shot, "mast", TIMES, frames, np.array(values["error"]), np.zeros(4))
+    return module.FramingSamples(shot, "mast", TIMES, EVERY, frames, np.array(values["error"]), np.zeros(4))
 
 
 @pytest.fixture

@@ -15,6 +15,7 @@ from shotc.passes.verify.visible import HALF_SHARE, longest, visible
 from tests.support.film_plans import orbit_plan
 
 TIMES = np.array([3.0, 4.0, 5.0, 6.0, 7.0, 8.0])
+EVERY = np.ones(len(TIMES), dtype=bool)
 
 
 def claims(covered: list[float], *, visible_share: float | None = None, reveal: Any = None) -> list[Claim]:
@@ -23,7 +24,7 @@ def claims(covered: list[float], *, visible_share: float | None = None, reveal: 
     promise = SimpleNamespace(visible=visible_share, reveal=reveal)
     shot: Any = SimpleNamespace(id="look", path=("shots", 0), promise=promise)
     flight = JudgedFlight(mission, mission.drones[0], plan.drones[0])
-    return list(visible(flight, shot, "tower", TIMES, np.array(covered)))
+    return list(visible(flight, shot, "tower", TIMES, (np.array(covered), EVERY)))
 
 
 def told(claim: Claim) -> tuple[float, float, float | None, bool, bool]:
