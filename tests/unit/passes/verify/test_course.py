@@ -307,3 +307,99 @@ def test_a_stated_turn_is_flown_to_a_quarter_of_a_turn(by: float, holds: bool) -
     assert claim.worst == pytest.approx(abs(by - 2.0))
     assert (claim.limit, claim.holds) == (pytest.approx(pi / 2), holds)
     assert judged(shot(*BOTH), curve=turned(CAM_YAW, by))[TURN].worst == 0.0
+
+
+def test_every_shot_of_the_drone_is_judged_whatever_stands_before_it() -> None:
+    mission = plain_mission()
+    reached = (KeyframeTime("out", 0, 4.0), KeyframeTime("out", 1, 14.0))
+    track = DroneTrajectory("cam1", lines(HOP), PHASES, reached, ())
+    shots = (shot(*BOTH, drone="cam2", id="away"), shot(*BOTH))
+    ir = TrajectoryIR(KeyframeIR(mission, shots), (track,), (), ())
+    found = {c.constraint for c in course(JudgedFlight(mission, mission.drones[0], track), ir)}
+    assert found == {ORDER, WAY, LENS, AIM, TURN}
+
+
+@pytest.mark.parametrize(
+    "met", [((0, 3.0), (1, 14.0)), ((0, 4.0), (1, 15.0)), ((0, 4.0),), ((0, 3.0), (1, 15.0))]
+)
+def test_keyframes_outside_of_the_shot_have_no_course(met: tuple[tuple[int, float], ...]) -> None:
+    assert set(judged(shot(*BOTH), met=met)) == {ORDER}
+
+
+@pytest.mark.parametrize("end", [0, 2])
+def test_only_a_keyframe_with_a_time_of_its_own_frees_its_end(end: int) -> None:
+    three = [keyframe(WEST), keyframe(MIDDLE, time=5.0), keyframe(EAST)]
+    met = ((0, 4.0 + (end == 0)), (1, 9.0), (2, 14.0 - (end == 2)))
+    assert judged(shot(*three), met=met)[ORDER].worst == pytest.approx(1.0)
+    three[end] = three[end]._replace(time=1.0)
+    assert judged(shot(*three), met=met)[ORDER].worst == 0.0
+
+
+def test_one_placed_keyframe_makes_its_shot_one_of_placed_keyframes() -> None:
+    assert WAY in judged(shot(GENERATED[0], BOTH[1]))
+    assert WAY not in judged(shot(*GENERATED))
+
+
+def along(*lengths: float) -> tuple[PlacedShot, tuple[tuple[int, float], ...], list[float]]:
+    """A shot along the East with ways of given lengths, its keyframes met every second from 4 s on."""
+    at = [0.0, *np.cumsum(lengths).tolist()]
+    placed = shot(*(keyframe((x, 0.0, 10.0)) for x in at))
+    return placed, tuple((k, 4.0 + k) for k in range(len(at))), at
+
+
+@pytest.mark.parametrize(
+    ("lengths", "which", "longest"),
+    [((100.0, 4.0, 6.0, 4.0), 2, 6.0), ((4.0, 6.0, 4.0, 100.0), 0, 6.0), ((4.0, 6.0, 4.0, 100.0), 2, 100.0),
+     ((100.0, 4.0, 6.0, 4.0), 1, 100.0), ((4.0, 6.0, 5.0), 1, 6.0)],
+)  # fmt: skip
+def test_a_way_swings_by_half_of_the_longest_of_itself_and_its_neighbours(
+    lengths: tuple[float, ...], which: int, longest: float
+) -> None:
+    placed, met, at = along(*lengths)
+    middle = 0.5 * (at[which] + at[which + 1])
+    way = dict(HOP) | {4.0 + k: (x, 0.0, 10.0) for k, x in enumerate(at)}
+    way[4.5 + which] = (middle, 60.0, 10.0)
+    claim = judged(placed, way=tuple(sorted(way.items())), met=met)[WAY]
+    assert claim.limit == pytest.approx(0.5 * longest + 0.25)
+    assert (claim.worst, claim.time) == (pytest.approx(60.0, abs=0.01), pytest.approx(4.5 + which, abs=0.01))
+
+
+def test_of_several_ways_the_one_that_uses_most_of_its_limit_is_told() -> None:
+    """The long way is left by 40 of 50.25 m, the short one at the end by 7 of 3.25 m."""
+    placed, met, at = along(100.0, 6.0, 6.0)
+    way = dict(HOP) | {4.0 + k: (x, 0.0, 10.0) for k, x in enumerate(at)}
+    way |= {4.5: (50.0, 40.0, 10.0), 6.5: (109.0, 7.0, 10.0)}
+    claim = judged(placed, way=tuple(sorted(way.items())), met=met)[WAY]
+    assert (claim.limit, claim.worst) == (pytest.approx(3.25), pytest.approx(7.0, abs=0.01))
+
+
+def test_an_obstacle_on_a_way_explains_a_swing_and_none_beside_or_beyond_it() -> None:
+    def limit(x: float) -> float:
+        tree = Zone("tree", "out", Cylinder((x, 2.0), 1.0, 0.0, 12.0), ("world", "zones", "tree"))
+        placed, met, at = along(20.0, 20.0)
+        way = dict(HOP) | {4.0 + k: (x, 0.0, 10.0) for k, x in enumerate(at)} | {4.5: (10.0, 15.0, 10.0)}
+        return judged(placed, way=tuple(sorted(way.items())), met=met, zones=(tree,))[WAY].limit
+
+    assert limit(10.0) == pytest.approx(10.25 + 12.0 + 2 * BODY_M)
+    assert limit(30.0) == limit(60.0) == pytest.approx(10.25)
+
+
+@pytest.mark.parametrize("beyond", [15.0, -15.0])
+def test_a_way_is_left_beyond_its_ends_too(beyond: float) -> None:
+    x = 40.0 + beyond if beyond > 0 else beyond
+    claim = judged(shot(*BOTH), way=through((9.0, (x, 0.0, 10.0))))[WAY]
+    assert claim.worst == pytest.approx(15.0, abs=1e-3)
+
+
+def test_where_nothing_is_free_there_is_no_detour() -> None:
+    filmed = tuple(k._replace(target="mast") for k in GENERATED)
+    low = clearance(9.0, "ground_clearance")
+    found = judged(shot(*filmed), way=through((4.0, (0.0, 3.0, 10.0)), (3.9, WEST)), targets=(MAST,), **low)
+    assert found[DETOUR].worst == 0.0
+    assert ENDS not in found
+
+
+def test_an_obstacle_beyond_a_generated_path_explains_nothing() -> None:
+    tree = Zone("tree", "out", Cylinder((70.0, 0.0), 1.0, 0.0, 12.0), ("world", "zones", "tree"))
+    told = (PathDeviation("out", 0.5, 0.0, "zone tree"),)
+    assert judged(shot(*GENERATED), told=told, zones=(tree,))[PATH].limit == 0.25

@@ -10,12 +10,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.shapes import CylinderShape
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.phases import Reference
 from shotc.ir.promise import Promise
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.promises import unjudged
 from tests.support.film_plans import SPEED
-from tests.support.plain_flights import plain_flight, plain_mission
+from tests.support.plain_flights import WEST, plain_flight, plain_keyframe, plain_mission, plain_shot
 from tests.support.records import replace
 
 module = import_module("shotc.passes.verify.framing")
@@ -164,3 +169,35 @@ def test_a_promise_without_its_claim_is_told(key: str) -> None:
     assert told(promise, constraint, shot="back") == [key]
     assert told(promise, *others, flown=False) == []
     assert told(Promise()) == []
+
+
+def standing(place: np.ndarray, start: float, end: float) -> Piecewise:
+    return Piecewise(np.array([start, end]), np.tile(place, (1, 2, 1)))
+
+
+def test_samples_are_of_the_frames_that_show_a_target_and_of_both_ends() -> None:
+    """The camera looks East along its way; the mast is ahead to the right until the camera has passed it."""
+    mast = Target("mast", (20.0, -6.0, 13.0), CylinderShape(0.5, 2.0), ("targets", "mast"))
+    mission = plain_mission(targets=(mast,), rate=5.0)
+    place = np.array([0.3, -0.1])
+    spans = [(4.1, 8.0, True), (8.5, 9.1, False), (9.3, 13.9, True)]
+    framing = tuple(
+        Reference("out", "mast", a, b, standing(place, a, b) if known else None) for a, b, known in spans
+    )
+    track = replace(FLIGHT.track, framing=framing)
+    flight = JudgedFlight(mission, mission.drones[0], track)
+    one = plain_shot(plain_keyframe(WEST))
+    view = module.view_of(flight, one, "mast", track.phases[1])
+    ticks = [t for t in np.arange(20, 71) / 5.0 if any(a <= t <= b for a, b, _ in spans)]
+    assert view.times.tolist() == sorted({*ticks, *(t for a, b, _ in spans for t in (a, b))})
+    half = np.tan(0.6)
+    for t, error in zip(view.times, view.error, strict=True):
+        ahead = 20.0 - 4.0 * (t - 4.0)
+        if 8.5 <= t <= 9.1:
+            assert np.isnan(error)
+        elif ahead < 0:
+            assert error == inf
+        else:
+            place_now = np.array([6.0 / (ahead * half), 3.0 / (ahead * half) * mission.drones[0].aspect])
+            assert error == pytest.approx(np.linalg.norm(place_now - place))
+    assert module.view_of(flight, one, "tower", track.phases[1]) is None
