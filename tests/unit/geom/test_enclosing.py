@@ -134,3 +134,40 @@ def test_the_volume_that_two_boxes_have_in_common(axis: int, low: float, high: f
     least[axis], most[axis] = low, high
     other = _Aligned((), tuple(least), tuple(most))
     assert _common(one, other) == _common(other, one) == 4.0 * width
+
+
+@pytest.mark.parametrize(("notch", "bodies"), [(1.9, 1), (2.1, 2), (5.0, 2)])
+def test_a_ring_is_cut_where_it_fills_less_than_four_fifths_of_its_box(notch: float, bodies: int) -> None:
+    """A square of ten metres without a corner of 10 m times as much as the notch says."""
+    low = 10.0 - 2 * notch
+    ring = ((0.0, 0.0), (10.0, 0.0), (10.0, low), (5.0, low), (5.0, 10.0), (0.0, 10.0))
+    found = bodies_about([UprightPrism(ring, 0.0, 5.0)], 8)
+    assert len(found) == bodies
+    assert sum(map(volume, found)) == pytest.approx(5.0 * (100.0 - 10.0 * notch * (bodies > 1)))
+
+
+@pytest.mark.parametrize(("longer", "shape"), [(1.0, CylinderShape), (1.2, CylinderShape), (1.3, BoxShape)])
+def test_the_smaller_of_a_box_and_a_cylinder_is_taken(longer: float, shape: type) -> None:
+    """The box of an ellipse has 4 times the product of its half axes, its circle pi times a square."""
+    ring = tuple((longer * cos(k * pi / 8), sin(k * pi / 8)) for k in range(16))
+    (body,) = bodies_about([UprightPrism(ring, 0.0, 2.0)], 8)
+    assert isinstance(body.shape, shape)
+    assert volume(body) == pytest.approx(2.0 * min(4.0 * longer, pi * longer**2), rel=0.03)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_a_body_of_several_prisms_reaches_from_the_lowest_to_the_highest(turn: float) -> None:
+    """Three stand side by side: the first is the lowest, the second the highest, the third hangs between."""
+    square = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
+    heights = ((1.0, 6.0, "low"), (2.0, 9.0, "high"), (3.0, 5.0, "low"))
+    blocks = [
+        UprightPrism(turned(square, turn, (4.0 * k * cos(turn), 4.0 * k * sin(turn))), *each)
+        for k, each in enumerate(heights)
+    ]
+    (one,) = bodies_about(blocks, 1)
+    assert (one.shape.height, one.centre[2], one.name) == (8.0, 5.0, "")
+    assert volume(one) == pytest.approx(12.0 * 4.0 * 8.0)
+    apart = bodies_about(blocks, 3)
+    assert sorted((b.centre[2] - b.shape.height / 2, b.shape.height, b.name) for b in apart) == [
+        (1.0, 5.0, "low"), (2.0, 7.0, "high"), (3.0, 2.0, "low"),
+    ]  # fmt: skip

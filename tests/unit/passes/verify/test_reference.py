@@ -256,3 +256,9 @@ def test_a_target_is_held_between_its_own_keyframes_and_in_their_holds() -> None
     assert kept("post", plain_shot(*keyframes)) == pytest.approx([4.0, 14.0, 101])
     # Where one keyframe lacks its time, all frames count.
     assert kept("mast", plain_shot(*keyframes, keyframes[0])) == pytest.approx([4.0, 14.0, 101])
+
+
+def test_a_subject_without_a_place_on_screen_hides_no_other_one() -> None:
+    spans = span(None, target="tower"), span(wanted(FIRST, LAST))
+    found = judged(on_clock(subject(None, "tower"), subject(FIRST)), *spans)
+    assert (found[OFF_COURSE].worst, found[OFF_COURSE].holds) == (pytest.approx(0.5), False)
