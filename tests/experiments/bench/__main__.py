@@ -198,7 +198,7 @@ def main() -> None:
     print(f"{platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     # `import pydantic` loads little; what it loads once a model is used is the larger part of a check.
     least, check = [sys.executable, "-c", LEAST], [*SHOTC, "check", str(DEMO)]
-    processes(31, "typer, pydantic", {"the least command of both and PyYAML": least, "shotc check DEMO": check})
+    processes(31, "typer, pydantic", {"least command of both and PyYAML": least, "shotc check DEMO": check})
     with tempfile.TemporaryDirectory() as folder:
         plan = [*SHOTC, "plan", str(DEMO), "-o", folder]
         bare = [*plan, "--refiner", "none"]
