@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from shotc.simulation.unfinished import Unfinished
     from shotc.source.file import SourceFile
 
-FASTEST, FARTHEST = 100.0, 1000.0
+FASTEST_WIND_M_S, FARTHEST_ERROR_M = 100.0, 1000.0
 """Largest wind, m/s, and largest position error, m, that are simulated. No drone meets larger ones."""
 
 Input = Annotated[
@@ -59,7 +59,8 @@ Seeds = Annotated[
 ]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the first run; all others follow from it.")]
 WindSpeed = Annotated[
-    float | None, typer.Option("--wind", min=0.0, max=FASTEST, help="Steady wind, m/s [the world's].")
+    float | None,
+    typer.Option("--wind", min=0.0, max=FASTEST_WIND_M_S, help="Steady wind, m/s [the world's]."),
 ]
 WindFrom = Annotated[
     float | None,
@@ -67,7 +68,9 @@ WindFrom = Annotated[
 ]
 Gusty = Annotated[
     float | None,
-    typer.Option("--gusts", min=0.0, max=FASTEST, help="Standard deviation of gusts on each axis, m/s [0]."),
+    typer.Option(
+        "--gusts", min=0.0, max=FASTEST_WIND_M_S, help="Standard deviation of gusts on each axis, m/s [0]."
+    ),
 ]
 GpsGrade = Annotated[
     Literal["rtk", "plain"] | None,
@@ -79,7 +82,9 @@ VehicleOption = Annotated[
 ]
 Bias = Annotated[
     float,
-    typer.Option(min=-FARTHEST, max=FARTHEST, help="Error of all satellite positions to the East, m."),
+    typer.Option(
+        min=-FARTHEST_ERROR_M, max=FARTHEST_ERROR_M, help="Error of all satellite positions to the East, m."
+    ),
 ]
 Lost = Annotated[
     list[str] | None,
@@ -92,7 +97,7 @@ Wander = Annotated[
     float | None,
     typer.Option(
         min=0.0,
-        max=FARTHEST,
+        max=FARTHEST_ERROR_M,
         help="Standard deviation of the distance of moving targets from their tracks, m [0].",
     ),
 ]

@@ -14,7 +14,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.surface.triangles import cross
 from shotc.ir.obstacle_mesh import ObstacleMesh
 
-LEVEL, CONTRAST = 0.86, 0.4
+LEVEL_LIGHTNESS, CONTRAST_LIGHTNESS = 0.86, 0.4
 """Lightness of a face parallel to the light, and the amount added for one that faces it."""
 
 
@@ -44,7 +44,7 @@ def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
     triangles, normal, middle = (np.concatenate([part[k] for part in parts]) for k in range(3))
     turned_away = np.einsum("nd,nd->n", normal, eye - middle) < 0.0
     normal[turned_away] *= -1.0
-    light = np.clip(LEVEL + CONTRAST * (normal @ LIGHT), 0.45, 1.3)
+    light = np.clip(LEVEL_LIGHTNESS + CONTRAST_LIGHTNESS * (normal @ LIGHT), 0.45, 1.3)
     return Faces(triangles, shades(np.array(STONE), light))
 
 

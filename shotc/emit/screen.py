@@ -23,7 +23,7 @@ precedes it.
 SCREEN_ERROR = " screen error"
 """End of the name of the claim on a target's largest screen error."""
 
-TOPS = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
+TOPS_HALF_FRAMES = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
 """Ends of the axis of screen errors, in half frames. A target with a larger error is outside the frame by at
 least a whole frame.
 """
@@ -137,11 +137,11 @@ def certified(
 
 
 def error_top(errors: Sequence[Array]) -> float:
-    """Return the end of an axis of screen errors: the least of TOPS that holds all errors, or the largest."""
+    """Return the end of an axis of screen errors: the least of TOPS_HALF_FRAMES above all, or the largest."""
     known = np.concatenate([np.empty(0), *errors])
     known = known[np.isfinite(known)]
     largest = float(known.max()) if len(known) else 0.0
-    return next((top for top in TOPS if largest <= top), TOPS[-1])
+    return next((top for top in TOPS_HALF_FRAMES if largest <= top), TOPS_HALF_FRAMES[-1])
 
 
 def off_place(error: float) -> str:

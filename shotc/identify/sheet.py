@@ -19,9 +19,9 @@ from shotc.identify.cylinders import Upright
 from shotc.identify.tasks import DOUBTFUL_SHARE, SearchTask
 
 DPI = 120.0
-WIDTH, MARGIN, GAP, COLUMNS = 14.0, 0.5, 0.3, 3
-HEADING, CAPTION, LINE, FOOTING = 1.0, 0.5, 0.24, 0.35
-CELL = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS
+WIDTH_IN, MARGIN_IN, GAP_IN, COLUMNS = 14.0, 0.5, 0.3, 3
+HEADING_IN, CAPTION_IN, LINE_IN, FOOTING_IN = 1.0, 0.5, 0.24, 0.35
+CELL_IN = (WIDTH_IN - 2 * MARGIN_IN - (COLUMNS - 1) * GAP_IN) / COLUMNS
 
 
 class SheetRow(NamedTuple):
@@ -49,23 +49,23 @@ def draw_sheet(
 def _sheet(
     title: str, tasks: Sequence[SearchTask], pictures: Sequence[Array], rows: Sequence[SheetRow]
 ) -> bytes:
-    tallest = max(CELL / task.camera.aspect for task in tasks)
+    tallest = max(CELL_IN / task.camera.aspect for task in tasks)
     lines = ceil(len(tasks) / COLUMNS)
-    height = HEADING + lines * (tallest + CAPTION) + len(rows) * LINE + FOOTING
-    canvas = Canvas(WIDTH, height, DPI)
-    canvas.write(MARGIN, height - 0.5, title, Type(22, INK, bold=True), WIDTH - 2 * MARGIN)
+    height = HEADING_IN + lines * (tallest + CAPTION_IN) + len(rows) * LINE_IN + FOOTING_IN
+    canvas = Canvas(WIDTH_IN, height, DPI)
+    canvas.write(MARGIN_IN, height - 0.5, title, Type(22, INK, bold=True), WIDTH_IN - 2 * MARGIN_IN)
     about = "targets that keyframes mean: the box of each (dashed: a guess), and the cylinder that was found"
-    canvas.write(MARGIN, height - 0.8, about, Type(10, QUIET), WIDTH - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 0.8, about, Type(10, QUIET), WIDTH_IN - 2 * MARGIN_IN)
     for number, (task, picture) in enumerate(zip(tasks, pictures, strict=True)):
         row, column = divmod(number, COLUMNS)
-        top = height - HEADING - row * (tallest + CAPTION)
-        tall = CELL / task.camera.aspect
-        box = PageRectangle(MARGIN + column * (CELL + GAP), top - tall, CELL, tall)
+        top = height - HEADING_IN - row * (tallest + CAPTION_IN)
+        tall = CELL_IN / task.camera.aspect
+        box = PageRectangle(MARGIN_IN + column * (CELL_IN + GAP_IN), top - tall, CELL_IN, tall)
         _picture(canvas, box, (task, picture), number, rows)
     for number, each in enumerate(rows):
         text = f"{each.name}: {each.cylinder.described}"
-        y = FOOTING + (len(rows) - number - 1) * LINE
-        canvas.write(MARGIN, y, text, Type(10, INK), WIDTH - 2 * MARGIN)
+        y = FOOTING_IN + (len(rows) - number - 1) * LINE_IN
+        canvas.write(MARGIN_IN, y, text, Type(10, INK), WIDTH_IN - 2 * MARGIN_IN)
     return canvas.png()
 
 

@@ -23,7 +23,7 @@ from shotc.ir.target import Target
 
 KNOT_S = 0.5  # seconds between the knots of a course
 CHANGING_KNOT_S = 0.25  # the same where setpoints change the requirements
-FEWEST, MOST = 8, 240  # pieces of a course
+FEWEST_PIECES, MOST_PIECES = 8, 240  # pieces of a course
 BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged, if anything moves
 LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
@@ -55,7 +55,7 @@ class FramedScene:
         """Looks_past : whether viewpoints keep clear of solids, and look past what may hide a subject."""
         duration = shot.timing.duration or 0.0
         knot = CHANGING_KNOT_S if any(s.setpoints for s in shot.subjects) else KNOT_S
-        pieces = int(min(MOST, max(FEWEST, ceil(duration / knot))))
+        pieces = int(min(MOST_PIECES, max(FEWEST_PIECES, ceil(duration / knot))))
         self.mission, self.shot, self.start, self.looks_past = mission, shot, start, looks_past
         self.drone = mission.drone(shot.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))

@@ -1,8 +1,8 @@
 """Where moving targets may be in the next seconds, as upright cylinders that a drone keeps clear of.
 
-A target that the drone tracks is expected where its tracker predicts it, and may be SURE standard deviations
-beside that. Any other target is expected on its track. Its height is the planned one or the estimated one:
-the cylinder holds both, since the estimate of a lost target sinks or rises without reason.
+A target that the drone tracks is expected where its tracker predicts it, and may be off by SURE_DEVIATIONS.
+Any other target is expected on its track. Its height is the planned one or the estimated one: the cylinder
+holds both, since the estimate of a lost target sinks or rises without reason.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from shotc.plugin_api.replanner import Walls
 from shotc.simulation.seen import TrackedTarget
 from shotc.simulation.world import World
 
-SURE = 2.0
+SURE_DEVIATIONS = 2.0
 """Standard deviations of a predicted position that are kept clear, horizontally: 86 % of all, if normal."""
 
 TINY_M = 1e-9
@@ -103,7 +103,9 @@ def reaches(
         if target.track is None and mine is None:
             continue
         reach = _expected(world, target, mine, times)
-        spread = 0.0 if mine is None or target.name in expected else SURE * mine.tracker.spread(times)
+        spread = (
+            0.0 if mine is None or target.name in expected else SURE_DEVIATIONS * mine.tracker.spread(times)
+        )
         out.append(replace(reach, radius=reach.radius + spread, clearance=clearance))
     return tuple(out)
 

@@ -14,7 +14,7 @@ from shotc.spec.shorthand import QuantityModel
 from shotc.units import clip, describe
 
 MOST_BEATS = 20_000
-SLOWEST, FASTEST = 20.0, 400.0
+SLOWEST_BPM, FASTEST_BPM = 20.0, 400.0
 """Beats a minute."""
 
 
@@ -41,7 +41,7 @@ class NumberType(FieldType):
         return {"type": "number", "minimum": self.low, "maximum": self.high}
 
 
-Tempo = Annotated[float, NumberType("Tempo", SLOWEST, FASTEST, "beats a minute")]
+Tempo = Annotated[float, NumberType("Tempo", SLOWEST_BPM, FASTEST_BPM, "beats a minute")]
 Beat = Annotated[float, NumberType("Beat", 1.0, MOST_BEATS, "a beat, counted from 1")]
 Bar = Annotated[float, NumberType("Bar", 1.0, MOST_BEATS, "a bar, counted from 1")]
 PerBar = Annotated[int, Integer("BeatsPerBar", 1, 32)]

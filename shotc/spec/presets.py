@@ -295,12 +295,12 @@ _MODELS: dict[str, Preset] = {
     ),
 }
 
-_INCH_1_3, _INCH, _FOUR_THIRDS = 9.8e-3, 13.2e-3, 17.3e-3
+_INCH_1_3_M, _INCH_M, _FOUR_THIRDS_M = 9.8e-3, 13.2e-3, 17.3e-3
 """Widths of sensors of the types 1/1.3 inch (4:3, 12.3 mm diagonal), 1 inch and 4/3 inch, m."""
 _SENSORS = {
-    **dict.fromkeys(("mini", "mini-3", "mini-3-pro", "mini-4-pro", "air-3"), _INCH_1_3),
-    **dict.fromkeys(("mini-5-pro", "air-3s"), _INCH),
-    **dict.fromkeys(("pro", "mavic-3-classic", "mavic-3-pro", "mavic-4-pro", "mavic-3e"), _FOUR_THIRDS),
+    **dict.fromkeys(("mini", "mini-3", "mini-3-pro", "mini-4-pro", "air-3"), _INCH_1_3_M),
+    **dict.fromkeys(("mini-5-pro", "air-3s"), _INCH_M),
+    **dict.fromkeys(("pro", "mavic-3-classic", "mavic-3-pro", "mavic-4-pro", "mavic-3e"), _FOUR_THIRDS_M),
     "alta-x": 24.9e-3,
 }
 PRESETS = {name: model._replace(sensor=_SENSORS.get(name)) for name, model in _MODELS.items()}

@@ -56,7 +56,7 @@ PIN_WEIGHT = 1e6  # per squared share of the distance, or half frame: given plac
 REST_WEIGHT = 1e4  # per squared share of the drone's limits: where the drone rests
 TIME_WEIGHT = 1e7  # per squared share of the shot's duration: times that are asked for
 GUESS_KNOTS = 50  # of the motion of the initial guess, in addition to the places that bind
-SLOWEST, FASTEST = 5.0, 0.2  # bounds of a stage's length over that of the initial guess
+SLOWEST_RATIO, FASTEST_RATIO = 5.0, 0.2  # bounds of a stage's length over that of the initial guess
 
 
 def problem(
@@ -272,8 +272,8 @@ def _turning(subject: ShotContext) -> dict[int, float]:
 
 def _input_bounds(inputs: Array) -> tuple[Array, Array]:
     low, high = np.full_like(inputs, -inf), np.full_like(inputs, inf)
-    low[:, LENGTH] = FASTEST * inputs[:, LENGTH]
-    high[:, LENGTH] = SLOWEST * inputs[:, LENGTH]
+    low[:, LENGTH] = FASTEST_RATIO * inputs[:, LENGTH]
+    high[:, LENGTH] = SLOWEST_RATIO * inputs[:, LENGTH]
     return low, high
 
 

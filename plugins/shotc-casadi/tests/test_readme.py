@@ -31,8 +31,8 @@ WEIGHTS = {
     "given place": weights.PLACED_WEIGHT,
     "leash": weights.LEASH_SHARE,
     "place jerk": weights.JERK_WEIGHT,
-    "turn acceleration": weights.TURN[2],
-    "turn jerk": weights.TURN[4],
+    "turn acceleration": weights.TURN_WEIGHTS[2],
+    "turn jerk": weights.TURN_WEIGHTS[4],
     "steep": weights.PITCH_WEIGHT,
     "yielding place": weights.YIELDING_WEIGHT,
     "hidden": weights.HIDDEN_WEIGHT,
@@ -57,6 +57,6 @@ def test_every_condition_is_there():
 
 
 def test_yaw_and_pitch_weigh_the_same_and_rates_nothing():
-    assert weights.TURN[:2] == (0.0, 0.0)
-    assert weights.TURN[2:5:2] == weights.TURN[3:6:2]
+    assert weights.TURN_WEIGHTS[:2] == (0.0, 0.0)
+    assert weights.TURN_WEIGHTS[2:5:2] == weights.TURN_WEIGHTS[3:6:2]
     assert f"{USUAL_STAGES} stages a film, {SEVERAL_STAGES} with several subjects" in README

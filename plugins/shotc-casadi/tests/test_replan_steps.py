@@ -64,7 +64,7 @@ def test_units_halve_the_iterations_and_change_no_plan(in_metres, monkeypatch) -
     plans, took = past_a_tree()
     in_metres(1.0)
     monkeypatch.setattr(steps, "TOLERANCE", 1e-8)
-    monkeypatch.setattr(steps, "GAP", 1e-8)
+    monkeypatch.setattr(steps, "GAP_TOLERANCE", 1e-8)
     exact, _ = past_a_tree()
     monkeypatch.undo()
     in_metres(1.0)

@@ -40,7 +40,7 @@ from shotc.emit.mavlink.items import (
     degrees_of,
 )
 from shotc.emit.mavlink.speed import Speeds, adapted, seconds
-from shotc.emit.mavlink.steps import SAME, WaypointStep
+from shotc.emit.mavlink.steps import SAME_RAD, WaypointStep
 from shotc.emit.mavlink.style import Command, Style, turns_body
 from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.emit.waypoints.lens import SAME_LENS_HALF_FRAMES, edge
@@ -160,7 +160,9 @@ class Builder:
         last = self.aimed
         if last is not None:
             turned = command.cam_yaw - last.cam_yaw if self.dialect.earth_pan else command.pan - last.pan
-            if abs(command.cam_pitch - last.cam_pitch) < SAME and (not self.style.pans or abs(turned) < SAME):
+            if abs(command.cam_pitch - last.cam_pitch) < SAME_RAD and (
+                not self.style.pans or abs(turned) < SAME_RAD
+            ):
                 return False
         self.items.append(self.dialect.gimbal(command, self.style))
         self.aimed = command
@@ -185,7 +187,7 @@ class Builder:
                 self.focused = middle
 
     def _look(self, region: Vec3, position: Array) -> None:
-        if self.region is not None and _parted(region, self.region, position) < SAME:
+        if self.region is not None and _parted(region, self.region, position) < SAME_RAD:
             return
         self.items.append(at(ROI_LOCATION, self.geo.place(region), 0.0, 0.0, 0.0, 0.0))
         self.region = region
@@ -195,7 +197,7 @@ class Builder:
         # commanded again (ArduCopter, do_mount_control).
         if self.yaw is None:
             rate = SLEW_DEG_S
-        elif abs(yaw - self.yaw) < SAME and not force:
+        elif abs(yaw - self.yaw) < SAME_RAD and not force:
             return
         else:
             moving = seconds(self.speeds, step.across, step.rise)

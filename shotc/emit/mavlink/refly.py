@@ -30,7 +30,7 @@ from shotc.ir.drone import Drone
 Array = NDArray[np.float64]
 
 PX4_YAW_RATE_RAD_S = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
-STEP_TIME, STEP_WAY = 0.05, 0.1  # seconds and metres between samples of the flight
+STEP_S, STEP_M = 0.05, 0.1  # seconds and metres between samples of the flight
 MOST_STEPS = 2000  # samples of one leg
 
 
@@ -97,14 +97,14 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     hold = _number(params[0])
     start = pilot.position
     if moving > 0:
-        count = min(MOST_STEPS, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
+        count = min(MOST_STEPS, max(1, ceil(moving / STEP_S), ceil(length / STEP_M)))
         share = np.linspace(0.0, 1.0, count + 1)
         _log(
             pilot, start + share[:, None] * step, share * moving, share * max(length, moving * STAY_PACE_M_S)
         )
     pilot.position = target
     if hold > 0:
-        share = np.linspace(0.0, 1.0, min(MOST_STEPS, max(2, ceil(hold / STEP_TIME))) + 1)
+        share = np.linspace(0.0, 1.0, min(MOST_STEPS, max(2, ceil(hold / STEP_S))) + 1)
         _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE_M_S)
 
 

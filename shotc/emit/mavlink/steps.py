@@ -20,8 +20,8 @@ Array = NDArray[np.float64]
 SETTLE_S = 1.0  # seconds of rest before and after a shot that begins or ends at rest
 HALF_TURN_S = 3.0  # seconds in which a body turns by 180 degrees
 STANDSTILL_M_S = 0.05  # m/s
-SAME = float(np.radians(0.1))  # rad; smaller changes of an angle get no command of their own
-RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, acceptance radius of a waypoint
+SAME_RAD = float(np.radians(0.1))  # rad; smaller changes of an angle get no command of their own
+LEAST_RADIUS_M, REST_RADIUS_M = 0.3, 0.5  # metres, acceptance radius of a waypoint
 CORNER_M_S2 = 3.0  # m/s^2, MPC_ACC_HOR: acceleration of an autopilot that rounds a corner
 CORNER_CUT_M = 0.25  # metres by which a rounded corner may miss its waypoint
 
@@ -55,7 +55,7 @@ def steps_of(track: SampledFlight, style: Style, legs: list[StraightLeg]) -> lis
     for index, leg in enumerate(legs):
         step = _step(track, style, leg, legs[index + 1] if index + 1 < len(legs) else None)
         if leg.rest and steps and _joins(track, style, steps[-1], step):
-            steps[-1] = replace(steps[-1], hold=step.hold, radius=RADIUS_REST)
+            steps[-1] = replace(steps[-1], hold=step.hold, radius=REST_RADIUS_M)
         else:
             steps.append(step)
     return steps
@@ -76,7 +76,7 @@ def _aligned(track: SampledFlight) -> WaypointStep:
     """Return a stay above the pad that turns the body, for a flight that starts with a filmed leg."""
     command = command_of(track.poses, 0, 0, filmed=False)
     return WaypointStep(
-        StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, HALF_TURN_S, RADIUS_REST
+        StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, HALF_TURN_S, REST_RADIUS_M
     )
 
 
@@ -89,10 +89,10 @@ def _step(
     region = region_of(style, track, slice(leg.first, leg.last + 1), leg.shot)
     elapsed = float(time[leg.last] - time[leg.first])
     if leg.rest:
-        return WaypointStep(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
+        return WaypointStep(leg, command, region, 0.0, 0.0, 0.0, elapsed, REST_RADIUS_M)
     stops = _speed(track, leg.last) < STANDSTILL_M_S
     boundary = following is not None and following.shot != leg.shot
-    radius = RADIUS_REST
+    radius = REST_RADIUS_M
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
     # Autopilots do not fly slower than SLOWEST_M_S: the drone arrives early and waits.
@@ -111,7 +111,7 @@ def _joins(track: SampledFlight, style: Style, before: WaypointStep, stay: Waypo
         (poses.cam_yaw, before.command.cam_yaw),
         (poses.cam_pitch, before.command.cam_pitch),
     ):
-        if np.abs(angles[part] - commanded).max() > SAME:
+        if np.abs(angles[part] - commanded).max() > SAME_RAD:
             return False
     return not style.zooms or bool(edge(poses.hfov[part], before.command.hfov).max() <= SAME_LENS_HALF_FRAMES)
 
@@ -130,10 +130,10 @@ def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float
     """
     ingoing, onward = corner - before, after - corner
     lengths = float(np.linalg.norm(ingoing)), float(np.linalg.norm(onward))
-    if min(lengths) < 2 * RADIUS_LEAST:
-        return RADIUS_LEAST
+    if min(lengths) < 2 * LEAST_RADIUS_M:
+        return LEAST_RADIUS_M
     turn = acos(float(np.clip(ingoing @ onward / (lengths[0] * lengths[1]), -1.0, 1.0)))
     speed = lengths[0] / elapsed
     at_speed = speed**2 * tan(min(turn, 0.9 * pi) / 2) / CORNER_M_S2
     uncut = CORNER_CUT_M / max(tan(turn / 4), 1e-6)
-    return max(RADIUS_LEAST, min(max(at_speed, RADIUS_REST), uncut, min(lengths) / 2))
+    return max(LEAST_RADIUS_M, min(max(at_speed, REST_RADIUS_M), uncut, min(lengths) / 2))

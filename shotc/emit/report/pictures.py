@@ -14,9 +14,9 @@ from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import body_prisms
 
-WIDTH, MAP_HEIGHT, PLOT_HEIGHT = 680.0, 460.0, 190.0
+WIDTH_PX, MAP_HEIGHT_PX, PLOT_HEIGHT_PX = 680.0, 460.0, 190.0
 MARGIN_SHARE = 0.05
-LEFT, RIGHT, BOTTOM, TOP = 46.0, 12.0, 30.0, 12.0
+LEFT_PX, RIGHT_PX, BOTTOM_PX, TOP_PX = 46.0, 12.0, 30.0, 12.0
 
 
 def site_map(mission: MissionIR, volumes: Volumes) -> str:
@@ -26,12 +26,12 @@ def site_map(mission: MissionIR, volumes: Volumes) -> str:
     risk = volumes.risk.corners
     seen = np.concatenate([risk, *(np.array([seat[:2]]) for seat in seats)])
     low, high = seen.min(axis=0), seen.max(axis=0)
-    scale = (1.0 - 2.0 * MARGIN_SHARE) * min(WIDTH / (high - low)[0], MAP_HEIGHT / (high - low)[1])
+    scale = (1.0 - 2.0 * MARGIN_SHARE) * min(WIDTH_PX / (high - low)[0], MAP_HEIGHT_PX / (high - low)[1])
     middle = (low + high) / 2.0
 
     def put(points: Array) -> Array:
         flat = (points - middle) * scale
-        return np.column_stack([WIDTH / 2.0 + flat[:, 0], MAP_HEIGHT / 2.0 - flat[:, 1]])
+        return np.column_stack([WIDTH_PX / 2.0 + flat[:, 0], MAP_HEIGHT_PX / 2.0 - flat[:, 1]])
 
     def area(outline: AreaOutline, kind: str) -> str:
         return f'<polygon class="{kind}" points="{_points(put(outline.corners))}"/>'
@@ -46,7 +46,7 @@ def site_map(mission: MissionIR, volumes: Volumes) -> str:
     for zone, corners in zones:
         parts.append(f'<polygon class="zone {zone.keep}" points="{_points(put(corners))}"/>')
         x, y = put(corners).mean(axis=0)[0], put(corners)[:, 1].min() - 4.0
-        if 0.0 < x < WIDTH and 0.0 < y < MAP_HEIGHT:
+        if 0.0 < x < WIDTH_PX and 0.0 < y < MAP_HEIGHT_PX:
             parts.append(f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="middle">{escape(zone.name)}</text>')
     pads = [pad for fleet in mission.fleets for pad in fleet.pads] + [d.home for d in mission.drones]
     parts += [
@@ -57,7 +57,7 @@ def site_map(mission: MissionIR, volumes: Volumes) -> str:
         ((x, y),) = put(np.array([seat[:2]])).tolist()
         parts.append(f'<circle class="seat" cx="{x:.1f}" cy="{y:.1f}" r="4"/>')
         parts.append(f'<text x="{x + 7:.1f}" y="{y + 4:.1f}">audience</text>')
-    return _svg(MAP_HEIGHT, [*parts, *_scale(scale), _north()], "Map of the site, North up")
+    return _svg(MAP_HEIGHT_PX, [*parts, *_scale(scale), _north()], "Map of the site, North up")
 
 
 def _scale(scale: float) -> list[str]:
@@ -65,10 +65,10 @@ def _scale(scale: float) -> list[str]:
 
     scale : pixels a metre
     """
-    rough = 0.25 * WIDTH / scale
+    rough = 0.25 * WIDTH_PX / scale
     unit = 10.0 ** floor(log10(rough))
     length = max(k * unit for k in (1, 2, 5) if k * unit <= rough)
-    y = MAP_HEIGHT - 14.0
+    y = MAP_HEIGHT_PX - 14.0
     return [
         f'<path class="axis" d="M12 {y - 4} V{y} H{12 + length * scale:.1f} v-4"/>',
         f'<text x="{20 + length * scale:.1f}" y="{y + 1}">{length:g} m</text>',
@@ -76,7 +76,7 @@ def _scale(scale: float) -> list[str]:
 
 
 def _north() -> str:
-    x = WIDTH - 20.0
+    x = WIDTH_PX - 20.0
     return f'<path class="north" d="M{x} 10 l6 20 l-6 -4 l-6 4 z"/><text x="{x - 4}" y="44">N</text>'
 
 
@@ -84,27 +84,29 @@ def nearness_plot(pair: Nearness) -> str:
     """Return the plot of the nearest pair's distance over time, with the separation."""
     end = float(pair.times[-1]) or 1.0
     most = 1.15 * max(float(np.median(pair.distances)), 2.0 * pair.needed)
-    across, up = (WIDTH - LEFT - RIGHT) / end, (PLOT_HEIGHT - TOP - BOTTOM) / most
+    across, up = (WIDTH_PX - LEFT_PX - RIGHT_PX) / end, (PLOT_HEIGHT_PX - TOP_PX - BOTTOM_PX) / most
 
     def put(times: Array, values: Array) -> Array:
-        return np.column_stack([LEFT + times * across, PLOT_HEIGHT - BOTTOM - np.minimum(values, most) * up])
+        return np.column_stack(
+            [LEFT_PX + times * across, PLOT_HEIGHT_PX - BOTTOM_PX - np.minimum(values, most) * up]
+        )
 
-    floor_y = PLOT_HEIGHT - BOTTOM
+    floor_y = PLOT_HEIGHT_PX - BOTTOM_PX
     ((_, needed_y),) = put(np.zeros(1), np.array([pair.needed])).tolist()
-    parts = [f'<path class="axis" d="M{LEFT} {TOP} V{floor_y} H{WIDTH - RIGHT}"/>']
+    parts = [f'<path class="axis" d="M{LEFT_PX} {TOP_PX} V{floor_y} H{WIDTH_PX - RIGHT_PX}"/>']
     for time in _ticks(end):
-        x = LEFT + time * across
+        x = LEFT_PX + time * across
         parts.append(f'<path class="axis" d="M{x:.1f} {floor_y} v4"/>')
         parts.append(f'<text x="{x:.1f}" y="{floor_y + 17}" text-anchor="middle">{time:g} s</text>')
     for value in _ticks(most):
         y = floor_y - value * up
-        parts.append(f'<path class="grid" d="M{LEFT} {y:.1f} H{WIDTH - RIGHT}"/>')
-        parts.append(f'<text x="{LEFT - 5}" y="{y + 4:.1f}" text-anchor="end">{value:g} m</text>')
-    parts.append(f'<path class="needed" d="M{LEFT} {needed_y:.1f} H{WIDTH - RIGHT}"/>')
+        parts.append(f'<path class="grid" d="M{LEFT_PX} {y:.1f} H{WIDTH_PX - RIGHT_PX}"/>')
+        parts.append(f'<text x="{LEFT_PX - 5}" y="{y + 4:.1f}" text-anchor="end">{value:g} m</text>')
+    parts.append(f'<path class="needed" d="M{LEFT_PX} {needed_y:.1f} H{WIDTH_PX - RIGHT_PX}"/>')
     label = f'y="{needed_y + 13:.1f}" text-anchor="end">kept: {pair.needed:g} m</text>'
-    parts.append(f'<text x="{WIDTH - RIGHT - 4}" {label}')
+    parts.append(f'<text x="{WIDTH_PX - RIGHT_PX - 4}" {label}')
     parts.append(f'<polyline class="curve" points="{_points(put(pair.times, pair.distances))}"/>')
-    return _svg(PLOT_HEIGHT, parts, f"Nearest pair of {pair.fleet} over time")
+    return _svg(PLOT_HEIGHT_PX, parts, f"Nearest pair of {pair.fleet} over time")
 
 
 def _ticks(most: float) -> list[float]:
@@ -118,5 +120,5 @@ def _points(points: Array) -> str:
 
 
 def _svg(height: float, parts: list[str], title: str) -> str:
-    head = f'<svg viewBox="0 0 {WIDTH:g} {height:g}" role="img" xmlns="http://www.w3.org/2000/svg">'
+    head = f'<svg viewBox="0 0 {WIDTH_PX:g} {height:g}" role="img" xmlns="http://www.w3.org/2000/svg">'
     return "\n".join([head, f"<title>{escape(title)}</title>", *parts, "</svg>"])

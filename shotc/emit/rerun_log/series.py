@@ -16,7 +16,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 
-RATE, MOST = 25.0, 6000
+RATE_HZ, MOST_SAMPLES = 25.0, 6000
 """Samples a second, and the most samples of a flight: longer flights are sampled more coarsely."""
 
 
@@ -44,7 +44,7 @@ class Plot:
 def sample_times(flight: DroneTrajectory) -> Array:
     """Return the sample times of a flight, seconds, shape (n,); the last one is its end."""
     start, end = flight.curve.start, flight.curve.end
-    count = int(min(MOST, np.ceil((end - start) * RATE))) + 1
+    count = int(min(MOST_SAMPLES, np.ceil((end - start) * RATE_HZ))) + 1
     return np.linspace(start, end, max(count, 2))
 
 

@@ -22,7 +22,7 @@ from shotc.ir.comparison import Comparison, Condition
 from shotc.ir.drone import Drone
 from shotc.ir.trajectory import VerifiedIR
 
-HEAD, PLOT, MOST = 0.04, 0.16, 0.7
+HEAD_SHARE, PLOT_SHARE, MOST_SHARE = 0.04, 0.16, 0.7
 """Shares of a window's height: a view's title, a plot, and the largest share of the columns together."""
 
 
@@ -85,7 +85,7 @@ def _blueprint(
     below = rrb.Horizontal(
         world_view(first_stand(plans[0][1]) or overview(bounds), cameras), facts, column_shares=[1.0, 1.4]
     )
-    above = min(1.0 / len(columns) + PLOT + 2 * HEAD, MOST)
+    above = min(1.0 / len(columns) + PLOT_SHARE + 2 * HEAD_SHARE, MOST_SHARE)
     whole = rrb.Vertical(rrb.Horizontal(*columns), below, row_shares=[above, 1.0 - above])
     return rrb.Blueprint(whole, *panels(_filmed(plans)), auto_layout=False, auto_views=False)
 
@@ -109,7 +109,7 @@ def _column(comparison: Comparison, each: Condition, count: int, axes: tuple[flo
             title += f" (whole in frame {percent(each.score.in_frame)})"
         views.append(camera_view(comparison.mission, drone, _camera(each, drone), title))
         views.append(error_view(within(place_of(each.name), f"plots/{name}/screen_error"), *axes))
-    shares = [1.0 / count + HEAD, PLOT + HEAD] * (len(views) // 2)
+    shares = [1.0 / count + HEAD_SHARE, PLOT_SHARE + HEAD_SHARE] * (len(views) // 2)
     return rrb.Vertical(*views, row_shares=shares, name=each.name)
 
 

@@ -17,7 +17,7 @@ from shotc.geom.vec import Vec3
 LIGHT_RAD = np.radians(215.0)
 """Direction to the light, an angle in W, rad; it is fixed, so that shading shows which side is seen."""
 
-STRIPS, RIM = 24, 64  # strips of a cylinder's side, points of its rim
+STRIP_COUNT, RIM_POINTS = 24, 64  # strips of a cylinder's side, points of its rim
 
 
 class Sides(NamedTuple):
@@ -74,11 +74,11 @@ def _round(shape: CylinderShape, offset: Vec3) -> Sides:
     def rim(turn: Array) -> Array:
         return np.stack([x + radius * np.cos(turn), y + radius * np.sin(turn)], axis=-1)
 
-    top = rim(np.linspace(0, 2 * np.pi, RIM + 1)[:-1])
+    top = rim(np.linspace(0, 2 * np.pi, RIM_POINTS + 1)[:-1])
     if distance <= radius:
         return Sides(np.empty((0, 2, 2)), np.empty(0), top)
     half = np.arccos(radius / distance)
-    turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, STRIPS + 1)
+    turn = np.arctan2(-y, -x) + half * np.linspace(-1, 1, STRIP_COUNT + 1)
     seen = rim(turn)
     return Sides(np.stack([seen[:-1], seen[1:]], axis=1), (turn[:-1] + turn[1:]) / 2, top)
 

@@ -26,10 +26,10 @@ LABELLED_EVERY = 5
 """Every LABELLED_EVERY-th contour is bold and has its height, if the plan shows at least two of them."""
 
 MOST_LABELS = 6
-LINE, BOLD = 0.45, 0.9
+LINE_PT, BOLD_PT = 0.45, 0.9
 """Widths of contours, points."""
 
-TEXT = 6.8
+TEXT_PT = 6.8
 """Size of the heights of contours, points."""
 
 PROFILE_POINTS = 400
@@ -102,7 +102,7 @@ def draw_relief(canvas: Canvas, sheet: Sheet, relief: PlanRelief) -> None:
         ends = contour(triangles, float(level))
         if len(ends):
             color = (*shade(GROUND, 0.45), 0.8 if bold else 0.55)
-            canvas.pieces(sheet.at(ends), color, BOLD if bold else LINE, sheet.box)
+            canvas.pieces(sheet.at(ends), color, BOLD_PT if bold else LINE_PT, sheet.box)
 
 
 def _pixels(relief: PlanRelief) -> np.ndarray:
@@ -126,7 +126,7 @@ def contour(triangles: Array, level: float) -> Array:
 
 
 def contour_heights(
-    canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle], size: float = TEXT
+    canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle], size: float = TEXT_PT
 ) -> list[PageRectangle]:
     """Write heights on a few contours, each in free space near the middle; return the occupied rectangles.
 

@@ -8,11 +8,11 @@ from shotc.emit.palette import INK, QUIET
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.frame import Cell, caption_height
 from shotc.emit.storyboard.side_by_side import (
-    CELL,
-    GAP,
-    HEADING,
-    MARGIN,
-    NAMES,
+    CELL_IN,
+    GAP_IN,
+    HEADING_IN,
+    MARGIN_IN,
+    NAMES_IN,
     draw_moment,
     moment_at,
     picture_size,
@@ -36,13 +36,13 @@ def draw_differences(comparison: Comparison, dpi: float) -> bytes:
 def _page(comparison: Comparison, dpi: float) -> bytes:
     mission, differences = comparison.mission, comparison.differences
     sizes = [picture_size(mission.drone(mission.shot(each.shot).drone).aspect) for each in differences]
-    heights = [NAMES + height + caption_height(CELL) + FACTS_HEIGHT_IN for _, height in sizes]
-    width, height = 2 * MARGIN + 2 * (CELL + GAP) - GAP, HEADING + sum(heights) + 0.2
+    heights = [NAMES_IN + height + caption_height(CELL_IN) + FACTS_HEIGHT_IN for _, height in sizes]
+    width, height = 2 * MARGIN_IN + 2 * (CELL_IN + GAP_IN) - GAP_IN, HEADING_IN + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
-    canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN_IN)
     text = "where two refiners differ most: metres between cameras plus degrees between where they look"
-    canvas.write(MARGIN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN)
-    top = height - HEADING
+    canvas.write(MARGIN_IN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN_IN)
+    top = height - HEADING_IN
     for each, size, used in zip(differences, sizes, heights, strict=True):
         _row(canvas, comparison, each, (top, size))
         top -= used
@@ -60,14 +60,14 @@ def _row(
     for column, (name, time) in enumerate(
         ((difference.condition, difference.time), (difference.other, difference.other_time))
     ):
-        left = MARGIN + column * (CELL + GAP)
+        left = MARGIN_IN + column * (CELL_IN + GAP_IN)
         each = next(c for c in comparison.conditions if c.name == name)
         assert each.plan is not None
         shot = next(s for s in each.shots if s.id == difference.shot)
-        canvas.write(left, top - 0.3, f"{name}, {difference.shot}", Type(13, INK, bold=True), CELL)
-        picture = PageRectangle(left, top - NAMES - height, width, height)
-        draw_moment(canvas, Cell(picture, CELL), each.plan, moment_at(each.plan, shot, time, column + 1))
+        canvas.write(left, top - 0.3, f"{name}, {difference.shot}", Type(13, INK, bold=True), CELL_IN)
+        picture = PageRectangle(left, top - NAMES_IN - height, width, height)
+        draw_moment(canvas, Cell(picture, CELL_IN), each.plan, moment_at(each.plan, shot, time, column + 1))
     apart = f"{difference.metres:.2f} m and {difference.degrees:.1f} deg apart"
     facts = f"{apart}; mean of their sum {difference.mean:.2f}"
-    base = top - NAMES - height - caption_height(CELL) - 0.02
-    canvas.write(MARGIN, base, facts, Type(8.5, INK), 2 * CELL + GAP)
+    base = top - NAMES_IN - height - caption_height(CELL_IN) - 0.02
+    canvas.write(MARGIN_IN, base, facts, Type(8.5, INK), 2 * CELL_IN + GAP_IN)

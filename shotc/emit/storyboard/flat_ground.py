@@ -12,7 +12,7 @@ from shotc.emit.storyboard.canvas import Canvas
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import Vec3
 
-REACH, FADES = 30, 12
+REACH_SQUARES, FADE_STEPS = 30, 12
 """Squares from the camera to the edge of the grid, and steps in which it fades."""
 
 NEAR_M = 0.05
@@ -61,9 +61,9 @@ def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
     grid : width of a square, metres
     pieces : pieces of a line, which are short near the eye so that they can fade
     """
-    reach = REACH * grid
+    reach = REACH_SQUARES * grid
     centre = np.round(np.array(eye[:2]) / grid) * grid
-    across = np.arange(-REACH, REACH + 1) * grid
+    across = np.arange(-REACH_SQUARES, REACH_SQUARES + 1) * grid
     share = np.linspace(-1, 1, pieces + 1)
     along = np.sign(share) * share**2 * reach
     lines = []
@@ -78,7 +78,7 @@ def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
 
 def draw_squares(canvas: Canvas, view: PictureRectangle, pieces: Array, grid: float) -> None:
     """Draw pieces of the grid lines, relative to the eye, metres, (n, 2, 3); distant ones are fainter."""
-    reach = REACH * grid
+    reach = REACH_SQUARES * grid
     right, down, forward = view.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))
     seen = (forward > NEAR_M).all(axis=1)
     uv = np.stack(
@@ -93,7 +93,7 @@ def draw_squares(canvas: Canvas, view: PictureRectangle, pieces: Array, grid: fl
     if not inside.any():
         return
     ends = view.place(uv[inside])
-    strength = np.ceil(FADES * (1 - far[inside]) ** 2)
+    strength = np.ceil(FADE_STEPS * (1 - far[inside]) ** 2)
     for level in np.unique(strength):
-        color = (*shade(GROUND, 0.66), 0.5 * float(level) / FADES)
+        color = (*shade(GROUND, 0.66), 0.5 * float(level) / FADE_STEPS)
         canvas.pieces(ends[strength == level], color, 0.6, view.box)

@@ -27,7 +27,7 @@ from shotc.rounding import as_minutes
 LINE_HEIGHT_IN = 0.165
 """Height of a line of a caption, inches."""
 
-DOT, LEAST_UNDER_DOT = 0.038, 0.2
+DOT_IN, LEAST_UNDER_DOT_IN = 0.038, 0.2
 """Radius of the dot on a subject, and least size of a subject that stays visible under it, inches."""
 
 WIDE_CELL_IN = 2.3
@@ -118,10 +118,10 @@ def _marks(
 
 def _actual(canvas: Canvas, at: Vec2, body: PageRectangle | None) -> PageRectangle:
     """Mark the position of a subject by a dot, or by a ring if the dot would cover the subject."""
-    if body is None or max(body.width, body.height) >= LEAST_UNDER_DOT:
-        canvas.disc(at, DOT, WHITE, INK, 0.9)
-        return PageRectangle(at[0] - DOT, at[1] - DOT, 2 * DOT, 2 * DOT)
-    reach = max(hypot(body.width, body.height) / 2 + 0.03, 2 * DOT)
+    if body is None or max(body.width, body.height) >= LEAST_UNDER_DOT_IN:
+        canvas.disc(at, DOT_IN, WHITE, INK, 0.9)
+        return PageRectangle(at[0] - DOT_IN, at[1] - DOT_IN, 2 * DOT_IN, 2 * DOT_IN)
+    reach = max(hypot(body.width, body.height) / 2 + 0.03, 2 * DOT_IN)
     turn = np.linspace(0, 2 * np.pi, 41)
     ring = np.stack([at[0] + reach * np.cos(turn), at[1] + reach * np.sin(turn)], axis=-1)
     canvas.lines([ring], (*INK, 0.8), 2.2)

@@ -32,8 +32,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.rounding import as_minutes, at_least
 
-WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
-HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
+WIDTH_IN, MARGIN_IN, GAP_IN = 16.0, 0.55, 0.28
+HEADING_IN, FOOTING_IN, BAND_IN, LINE_IN = 1.40, 0.85, 0.60, 0.18
 MANY_SHOTS = 4
 """Number of shots, above which pictures and maps are smaller."""
 
@@ -69,16 +69,16 @@ class ShotLayout:
 
 def band_height(board: ShotBoard) -> float:
     """Return the height of the text above a shot's pictures, inches; each subject has a line."""
-    return BAND + LINE * max(0, len(board.framing) - 1)
+    return BAND_IN + LINE_IN * max(0, len(board.framing) - 1)
 
 
 def layout(aspect: float, shots: int) -> ShotLayout:
     """Return the layout of shots with one aspect ratio, on a page of some number of shots."""
     map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY_SHOTS else (3.0, 4, 2.4)
-    width_left = WIDTH - 2 * MARGIN - map_width - 0.35
-    width = min((width_left + GAP) / columns - GAP, tallest * aspect)
+    width_left = WIDTH_IN - 2 * MARGIN_IN - map_width - 0.35
+    width = min((width_left + GAP_IN) / columns - GAP_IN, tallest * aspect)
     cell = max(width, 1.7)
-    columns = int((width_left + GAP + 1e-9) / (cell + GAP))
+    columns = int((width_left + GAP_IN + 1e-9) / (cell + GAP_IN))
     return ShotLayout(map_width, (width, width / aspect), cell, columns)
 
 
@@ -93,11 +93,11 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     boards = shot_boards(plan) if shots <= MANY_SHOTS else shot_boards(plan, most_generated=4)
     layouts = [layout(board.drone.aspect, shots) for board in boards]
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
-    height = HEADING + sum(heights) + FOOTING
-    canvas = Canvas(WIDTH, height, dpi)
+    height = HEADING_IN + sum(heights) + FOOTING_IN
+    canvas = Canvas(WIDTH_IN, height, dpi)
     grid = _grid_of(boards, plan.trajectory.keyframes.mission)
     _heading(canvas, height, plan, boards, grid)
-    top = height - HEADING
+    top = height - HEADING_IN
     for place, board, used in zip(layouts, boards, heights, strict=True):
         _shot(canvas, top, (place, board), plan, grid)
         top -= used
@@ -119,7 +119,7 @@ def _heading(
 ) -> None:
     mission = plan.trajectory.keyframes.mission
     legend = _legend(canvas, height - 1.08, _entries(plan, boards), grid)
-    canvas.write(MARGIN, height - 0.76, mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN)
+    canvas.write(MARGIN_IN, height - 0.76, mission.name, Type(26, INK, bold=True), legend - 0.4 - MARGIN_IN)
     total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
     filmed = sum(board.end - board.start for board in boards)
     drones = ", ".join(f"{d.name} ({d.model})" for d in mission.drones)
@@ -133,7 +133,7 @@ def _heading(
     if camera is not None:
         facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
     text = "   ·   ".join(facts)
-    canvas.write(MARGIN, height - 1.08, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 1.08, text, Type(11, QUIET), WIDTH_IN - 2 * MARGIN_IN)
 
 
 def _ratio(aspect: float) -> str:
@@ -166,7 +166,7 @@ def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> flo
     entries = [*entries, f"grid in pictures {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
-    x = left = WIDTH - MARGIN - sum(widths) + 0.16
+    x = left = WIDTH_IN - MARGIN_IN - sum(widths) + 0.16
     y = base + 0.4
     for text, width in zip(entries, widths, strict=True):
         _sign(canvas, text, x + 0.09, y + 0.045)
@@ -211,16 +211,16 @@ def _shot(
 ) -> None:
     place, board = what
     mission = plan.trajectory.keyframes.mission
-    canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
+    canvas.lines([np.array([[MARGIN_IN, top], [WIDTH_IN - MARGIN_IN, top]])], FAINT, 0.8)
     _band(canvas, top, board)
     start = top - band_height(board)
     rows = place.rows(board)
     tall = rows * place.pitch - 0.17
-    draw_map(canvas, PageRectangle(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
-    left = MARGIN + place.map_width + 0.35
+    draw_map(canvas, PageRectangle(MARGIN_IN, start - tall, place.map_width, tall), board, mission, grid)
+    left = MARGIN_IN + place.map_width + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, place.columns)
-        x = left + column * (place.cell + GAP)
+        x = left + column * (place.cell + GAP_IN)
         y = start - row * place.pitch - place.picture[1]
         draw_frame(canvas, Cell(PageRectangle(x, y, *place.picture), place.cell), moment, mission, grid)
 
@@ -228,10 +228,11 @@ def _shot(
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
     base = top - band_height(board) + 0.20
     end = min(
-        (_framing_text(canvas, base, i, board) for i in range(len(board.framing))), default=WIDTH - MARGIN
+        (_framing_text(canvas, base, i, board) for i in range(len(board.framing))),
+        default=WIDTH_IN - MARGIN_IN,
     )
     end -= 0.25
-    x = MARGIN + canvas.write(MARGIN, base, board.shot.id, Type(15, INK, bold=True), 4.0) + 0.22
+    x = MARGIN_IN + canvas.write(MARGIN_IN, base, board.shot.id, Type(15, INK, bold=True), 4.0) + 0.22
     text = "  ·  ".join(_facts(board))
     x += canvas.write(x, base, text, Type(9.5, QUIET), end - x - (2.8 if board.note else 0.0))
     if board.note:
@@ -249,8 +250,8 @@ def _framing_text(canvas: Canvas, base: float, i: int, board: ShotBoard) -> floa
     hidden = framing.visible is not None and framing.visible < HALF_SHARE
     complete = framing.in_frame in (None, 1.0) and not hidden
     style = Type(9.5, INK if complete else KEEP_OUT, across="right")
-    canvas.text(WIDTH - MARGIN, base + LINE * (len(board.framing) - 1 - i), text, style)
-    return WIDTH - MARGIN - canvas.extent(text, style)[0]
+    canvas.text(WIDTH_IN - MARGIN_IN, base + LINE_IN * (len(board.framing) - 1 - i), text, style)
+    return WIDTH_IN - MARGIN_IN - canvas.extent(text, style)[0]
 
 
 def _facts(board: ShotBoard) -> list[str]:
@@ -277,7 +278,9 @@ def _framing(framing: ScreenSummary) -> str:
 
 
 def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
-    canvas.lines([np.array([[MARGIN, FOOTING - 0.2], [WIDTH - MARGIN, FOOTING - 0.2]])], FAINT, 0.8)
+    canvas.lines(
+        [np.array([[MARGIN_IN, FOOTING_IN - 0.2], [WIDTH_IN - MARGIN_IN, FOOTING_IN - 0.2]])], FAINT, 0.8
+    )
     whole, lost = certified(certificate), not_promised(certificate)
     parts = []
     if whole.error is not None and whole.time is not None:
@@ -290,9 +293,9 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
         parts.append(f"whole subject in frame {percent(whole.in_frame)}")
     text, proof = "   ·   ".join(parts), headline(certificate)
     bold = Type(10, INK, bold=True, across="right")
-    canvas.text(WIDTH - MARGIN, 0.42, proof, bold)
-    width_left = WIDTH - 2 * MARGIN - canvas.extent(proof, bold)[0] - 0.3
-    canvas.write(MARGIN, 0.42, text, Type(10, INK), width_left)
+    canvas.text(WIDTH_IN - MARGIN_IN, 0.42, proof, bold)
+    width_left = WIDTH_IN - 2 * MARGIN_IN - canvas.extent(proof, bold)[0] - 0.3
+    canvas.write(MARGIN_IN, 0.42, text, Type(10, INK), width_left)
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:

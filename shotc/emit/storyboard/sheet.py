@@ -15,7 +15,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_YAW
 from shotc.ir.terrain import ground_heights
 
-BORDER, SHARE = 0.45, 0.17
+BORDER_IN, BORDER_SHARE = 0.45, 0.17
 """Free border around the content: inches, and for a small sheet at most this share of its height."""
 
 NEAR_RATIO = 1.3
@@ -70,7 +70,7 @@ def sheet_of(box: PageRectangle, board: ShotBoard, mission: MissionIR) -> Sheet:
     over = board.path[:, 2] - ground_heights(mission, board.path[:, :2])
     least = max(10.0, 0.8 * float(np.median(np.abs(over))))
     span = np.maximum(high - low, least)
-    border = min(BORDER, SHARE * box.height)
+    border = min(BORDER_IN, BORDER_SHARE * box.height)
     inches = float(min((box.width - 2 * border) / span[0], (box.height - 2 * border) / span[1]))
     centre = (low + high) / 2
     if axes[1, 2] != 0:

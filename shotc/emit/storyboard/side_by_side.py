@@ -18,8 +18,8 @@ from shotc.ir.comparison import ComparedShot, Comparison, Condition, Score
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import VerifiedIR
 
-MARGIN, GAP, CELL = 0.55, 0.32, 3.15
-HEADING, NAMES, PLOT, FACTS = 1.15, 0.42, 1.15, 0.72
+MARGIN_IN, GAP_IN, CELL_IN = 0.55, 0.32, 3.15
+HEADING_IN, NAMES_IN, PLOT_IN, FACTS_IN = 1.15, 0.42, 1.15, 0.72
 TALLEST_IN = 3.0
 """Height of the tallest picture, inches, for a camera in portrait format."""
 
@@ -60,31 +60,31 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
     mission, count = comparison.mission, len(comparison.conditions)
     sizes = [picture_size(mission.drone(shot.drone).aspect) for shot in mission.shots]
     heights = [_height(size) for size in sizes]
-    width = 2 * MARGIN + max(count, 2) * (CELL + GAP) - GAP
-    height = HEADING + sum(heights) + 0.2
+    width = 2 * MARGIN_IN + max(count, 2) * (CELL_IN + GAP_IN) - GAP_IN
+    height = HEADING_IN + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
-    canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN_IN)
     text = (
         "every refiner's worst frame (amber below), and its screen error over the shot, in half frames; "
         "shaded where the target is not whole in the frame"
     )
-    canvas.write(MARGIN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN)
-    top = height - HEADING
+    canvas.write(MARGIN_IN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN_IN)
+    top = height - HEADING_IN
     for shot, size, used in zip(mission.shots, sizes, heights, strict=True):
-        canvas.lines([np.array([[MARGIN, top], [width - MARGIN, top]])], FAINT, 0.8)
-        _shot(canvas, comparison, shot, Panel(MARGIN, top, size))
+        canvas.lines([np.array([[MARGIN_IN, top], [width - MARGIN_IN, top]])], FAINT, 0.8)
+        _shot(canvas, comparison, shot, Panel(MARGIN_IN, top, size))
         top -= used
     return canvas.png()
 
 
 def picture_size(aspect: float) -> tuple[float, float]:
     """Return the width and the height of a picture, inches."""
-    width = min(CELL, TALLEST_IN * aspect)
+    width = min(CELL_IN, TALLEST_IN * aspect)
     return width, width / aspect
 
 
 def _height(picture: tuple[float, float]) -> float:
-    return NAMES + picture[1] + caption_height(CELL) + PLOT + FACTS
+    return NAMES_IN + picture[1] + caption_height(CELL_IN) + PLOT_IN + FACTS_IN
 
 
 def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> None:
@@ -92,9 +92,9 @@ def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> N
     flown = [next((s for s in each.shots if s.id == shot.id), None) for each in comparison.conditions]
     top = error_top([trace.error for s in flown if s is not None for trace in s.traces])
     for i, (each, there) in enumerate(zip(comparison.conditions, flown, strict=True)):
-        panel = Panel(first.left + i * (CELL + GAP), first.top, first.picture)
+        panel = Panel(first.left + i * (CELL_IN + GAP_IN), first.top, first.picture)
         name = f"{each.name}, {shot.id}" if several else each.name
-        canvas.write(panel.left, panel.top - 0.3, name, Type(13, INK, bold=True), CELL)
+        canvas.write(panel.left, panel.top - 0.3, name, Type(13, INK, bold=True), CELL_IN)
         if there is None or each.plan is None:
             _no_plan(canvas, each, panel)
         else:
@@ -111,15 +111,17 @@ def _flown(
     number, top = what
     width, height = panel.picture
     moment = moment_at(plan, shot, worst_frame(shot), number)
-    picture = PageRectangle(panel.left, panel.top - NAMES - height, width, height)
-    draw_moment(canvas, Cell(picture, CELL), plan, moment)
+    picture = PageRectangle(panel.left, panel.top - NAMES_IN - height, width, height)
+    draw_moment(canvas, Cell(picture, CELL_IN), plan, moment)
     plot = PageRectangle(
-        panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22
+        panel.left + 0.34, picture.y - caption_height(CELL_IN) - PLOT_IN + 0.1, CELL_IN - 0.34, PLOT_IN - 0.22
     )
     draw_error(canvas, plot, shot, (moment.time, top))
     for i, text in enumerate(_facts(shot.score)):
         lost = i == 1 and shot.score.in_frame not in (None, 1.0)
-        canvas.write(panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL)
+        canvas.write(
+            panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL_IN
+        )
 
 
 def moment_at(plan: VerifiedIR, shot: ComparedShot, time: float, number: int) -> StoryboardFrame:
@@ -152,7 +154,7 @@ def _facts(score: Score) -> list[str]:
 
 def _no_plan(canvas: Canvas, each: Condition, panel: Panel) -> None:
     width, height = panel.picture
-    box = PageRectangle(panel.left, panel.top - NAMES - height, width, height)
+    box = PageRectangle(panel.left, panel.top - NAMES_IN - height, width, height)
     canvas.polygons([box.outline()], GROUND_FAR, FAINT, 0.8)
     canvas.text(box.x + 0.12, box.top - 0.3, "no plan", Type(11, KEEP_OUT, bold=True))
     lines = [line for d in each.faults for line in wrap(f"{d.code}: {d.message}", 44)]

@@ -42,7 +42,7 @@ from shotc.ir.photos import Photos
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-WORST, MEAN = 0.05, 0.02  # half frames that a file may add to a shot
+WORST_HALF_FRAMES, MEAN_HALF_FRAMES = 0.05, 0.02  # half frames that a file may add to a shot
 KEPT_SHARE = 0.93  # share of these bounds when points are chosen; positions and angles are rounded afterwards
 STEADY_SHARE = (
     0.8  # share of these bounds when the drone stands and zooms; stays are rounded to tenths of a second
@@ -52,9 +52,9 @@ CLEARANCE_CUT_M = 0.02  # metres by which a clearance may be violated more than 
 UNEVEN_RATIO = 2.2  # ratio of the lengths of neighbouring legs, above which the longer one is divided
 LONGEST_LEG_M = 40.0  # metres, so that samples of legs are close together
 LARGEST_TURN_RAD = radians(150.0)  # rad of one leg, so that the shortest turn is the planned one
-SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
+LEAST_SPEED_M_S, MOST_SPEED_M_S = 0.1, 15.0  # m/s
 CURVE_SHARE = 0.45  # largest distance of a corner's rounding from its point, over the shorter leg
-CURVE_LEAST, CURVE_MOST = 0.2, 2.0  # metres; the least one at a stop
+LEAST_CURVE_M, MOST_CURVE_M = 0.2, 2.0  # metres; the least one at a stop
 MOST_ROUNDS = 400
 
 
@@ -107,9 +107,9 @@ class Chooser:
             position,
             np.array([self._angle(poses.cam_yaw, s) for s in stations]),
             np.array([self._angle(poses.cam_pitch, s) for s in stations]),
-            np.clip(np.append(speed, speed[-1:] or [SPEED_LEAST]), SPEED_LEAST, SPEED_MOST),
+            np.clip(np.append(speed, speed[-1:] or [LEAST_SPEED_M_S]), LEAST_SPEED_M_S, MOST_SPEED_M_S),
             stops,
-            np.where(stops, CURVE_LEAST, np.minimum(CURVE_SHARE * shorter, CURVE_MOST)),
+            np.where(stops, LEAST_CURVE_M, np.minimum(CURVE_SHARE * shorter, MOST_CURVE_M)),
             self._actions(stations),
         )
 
@@ -118,7 +118,7 @@ class Chooser:
         assert self.lens is not None
         part = slice(stretch.first, stretch.last + 1)
         return stay_and_zoom(
-            self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY_SHARE
+            self.lens, self.track.time[part], self.track.poses.hfov[part], WORST_HALF_FRAMES * STEADY_SHARE
         )
 
     def _actions(self, stations: list[Station]) -> tuple[tuple[PointAction, ...], ...]:
@@ -213,7 +213,9 @@ class Chooser:
         samples, legs = self._matched(stations)
         mean = np.zeros(len(parts))
         filmed = np.array([part.gap.shot is not None for part in parts])
-        edges = _most(self._edges(stations, samples, legs), legs, len(owners)) / (WORST * KEPT_SHARE)
+        edges = _most(self._edges(stations, samples, legs), legs, len(owners)) / (
+            WORST_HALF_FRAMES * KEPT_SHARE
+        )
         worst = np.where(filmed[owners], edges, 0.0)
         for shape in self.shapes:
             flown = legs_of(route, shape)
@@ -222,11 +224,13 @@ class Chooser:
             worst = np.maximum(worst, _most(off, legs, len(owners)) / POSITION_ERROR_M)
             worst = np.maximum(worst, near / CLEARANCE_CUT_M)
             for error in errors:
-                screen = np.where(filmed[owners], _most(error, legs, len(owners)) / (WORST * KEPT_SHARE), 0.0)
+                screen = np.where(
+                    filmed[owners], _most(error, legs, len(owners)) / (WORST_HALF_FRAMES * KEPT_SHARE), 0.0
+                )
                 worst = np.maximum(worst, screen)
                 count = np.maximum(np.bincount(owners[legs], minlength=len(parts)), 1)
                 sums = np.bincount(owners[legs], error, minlength=len(parts))
-                mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN * KEPT_SHARE), 0.0))
+                mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN_HALF_FRAMES * KEPT_SHARE), 0.0))
         turns = np.abs(np.diff(route.yaw))
         long = np.linalg.norm(np.diff(route.position, axis=0), axis=1) > LONGEST_LEG_M
         worst = np.where((turns > LARGEST_TURN_RAD) | long, np.inf, worst)

@@ -21,7 +21,7 @@ from shotc.ir.drone import LensRange
 Array = NDArray[np.float64]
 
 LEG_SAMPLES = 33  # intervals of a leg
-GENTLE, BRISK = 1.5, 3.0  # m/s^2, accelerations between speeds
+GENTLE_M_S2, BRISK_M_S2 = 1.5, 3.0  # m/s^2, accelerations between speeds
 STAY_STEP_S = 0.1  # seconds between samples of a stay
 SLOWEST_M_S = 0.05  # m/s, so that every leg ends
 
@@ -63,9 +63,9 @@ class AngleRamps:
 
 
 TURNINGS = (
-    AngleRamps(BRISK, by_time=False),
-    AngleRamps(BRISK, by_time=True),
-    AngleRamps(GENTLE, by_time=True),
+    AngleRamps(BRISK_M_S2, by_time=False),
+    AngleRamps(BRISK_M_S2, by_time=True),
+    AngleRamps(GENTLE_M_S2, by_time=True),
 )
 
 

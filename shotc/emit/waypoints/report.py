@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.emit.waypoints.choose import MEAN, WORST
+from shotc.emit.waypoints.choose import MEAN_HALF_FRAMES, WORST_HALF_FRAMES
 from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.stations import SHORTEST_LEG_M
@@ -136,7 +136,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
         angles = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
         unknown = drone.lens is None and drone.autopilot in ZOOM_COMMANDS
         code, words = "E105", f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}"
-        promised = off > WORST and _promises(shot)
+        promised = off > WORST_HALF_FRAMES and _promises(shot)
         if promised:
             code = PROMISED
             words = f"no file is written for {flight.drone}: it would not carry the zoom of shot {shot.id}"
@@ -167,7 +167,7 @@ def beyond(
     """Return warnings on shots that a file shows differently from the plan, with the reason."""
     out: list[Diagnostic] = []
     for each in error.shots:
-        if max(each.worst, each.edge) <= WORST and each.mean <= MEAN:
+        if max(each.worst, each.edge) <= WORST_HALF_FRAMES and each.mean <= MEAN_HALF_FRAMES:
             continue
         shot = mission.shot(each.shot)
         reason, help_ = _why(track, each)
@@ -179,7 +179,7 @@ def beyond(
                 (mission.origins.key(shot.path),),
                 (
                     f"worst at t = {each.time:.1f} s, {at_least(each.mean, 3)} on average; the aim is at most"
-                    f" {WORST} and {MEAN} under every flight model",
+                    f" {WORST_HALF_FRAMES} and {MEAN_HALF_FRAMES} under every flight model",
                     reason,
                 ),
                 help_,

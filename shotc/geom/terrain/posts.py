@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 
 MOST_POSTS = 20_000_000
 """Most posts of a file; 3601 x 3601 are 13 million."""
-LOWEST, HIGHEST = -500.0, 9000.0
+LOWEST_M, HIGHEST_M = -500.0, 9000.0
 """Range of heights on land, metres; a height beyond it is a marker for something else."""
 
 FaultKind = Literal[
@@ -74,7 +74,7 @@ def posts_of(heights: Array, x: Array, y: Array, system: int | None) -> Posts | 
     known = ~np.isnan(heights)
     if not known.any():
         return TerrainFault("empty", f"none of its {_posts(heights.shape)} has a height")
-    no_land = np.argwhere(known & ~((heights >= LOWEST) & (heights <= HIGHEST)))
+    no_land = np.argwhere(known & ~((heights >= LOWEST_M) & (heights <= HIGHEST_M)))
     if len(no_land):
         i, j = no_land[0]
         message = f"{len(no_land)} of its {_posts(heights.shape)} have heights that no land has"

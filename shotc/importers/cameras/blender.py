@@ -25,7 +25,7 @@ from shotc.importers.cameras.takes import (
 from shotc.importers.notes import Notes
 
 USUAL_FPS = 24.0
-USUAL_LENS, USUAL_SENSOR = 50.0, 36.0  # millimetres; the values of a new camera in Blender
+USUAL_LENS_MM, USUAL_SENSOR_MM = 50.0, 36.0  # millimetres; the values of a new camera in Blender
 EXAMPLE = "frame,x,y,z,rx,ry,rz,lens"
 NAMES = {
     "frame": ("frame", "frames"),
@@ -121,7 +121,9 @@ def _unit(table: CameraTable, columns: dict[str, str], notes: Notes) -> float:
 
 def _lens_noted(table: CameraTable, columns: dict[str, str], notes: Notes) -> None:
     if "lens" not in columns and "hfov" not in columns:
-        taken = f"{USUAL_LENS:g} mm on a sensor {USUAL_SENSOR:g} mm wide, as a new camera of Blender has"
+        taken = (
+            f"{USUAL_LENS_MM:g} mm on a sensor {USUAL_SENSOR_MM:g} mm wide, as a new camera of Blender has"
+        )
         notes.assume(table.node, "the file has no column `hfov`, nor `lens`", taken)
 
 
@@ -148,7 +150,7 @@ def _hfov(values: dict[str, float | None]) -> float:
     """Return the horizontal field of view of a landscape frame, degrees."""
     hfov = values.get("hfov")
     if hfov is None:
-        lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
+        lens, sensor = values.get("lens") or USUAL_LENS_MM, values.get("sensor") or USUAL_SENSOR_MM
         hfov = degrees(field_of_view(max(lens, 1e-3), sensor))
     return shown(hfov)
 

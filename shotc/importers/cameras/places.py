@@ -15,7 +15,7 @@ from shotc.ir.mission import GeoOrigin
 
 FAR_M = 20_000.0
 """Distance from the median of all cameras beyond which a camera belongs to no flight, metres."""
-LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees, of the gimbal of the drone in the mission
+LOWEST_PITCH_DEG, HIGHEST_PITCH_DEG = -90.0, 30.0  # degrees, of the gimbal of the drone in the mission
 NARROWEST_DEG, WIDEST_DEG = 1.01, 169.9
 """Fields of view just inside the range of the language, because focal lengths are rounded."""
 LARGEST_COORDINATE_M = 1e9
@@ -69,7 +69,7 @@ def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
 
 def reached(node: Node, pitch: float, notes: Notes) -> float:
     """Return the pitch clamped to the range of the drone's gimbal, degrees, with a note if it changes."""
-    nearest = max(LOWEST_PITCH, min(HIGHEST_PITCH, pitch))
+    nearest = max(LOWEST_PITCH_DEG, min(HIGHEST_PITCH_DEG, pitch))
     if abs(nearest - pitch) > 1e-6:
         notes.assume(node, f"a pitch of {pitch:.1f} deg is out of a gimbal's range", f"{nearest:g} deg")
     return nearest

@@ -14,7 +14,7 @@ BESIDE_M = 8.0  # metres to the East of its target, for a camera that would stan
 LEAST_RISE_M = 0.1  # least travel of an elevator, metres
 LEVEL_TILT_DEG = 90.0  # degrees, tilt of a camera that looks at the horizon
 MOST_PAN_DEG = 720.0  # degrees
-LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
+LOWEST_PITCH_DEG, HIGHEST_PITCH_DEG = -90.0, 30.0  # degrees
 
 
 def elevator(task: RoleTask) -> ImportedShot:
@@ -95,9 +95,14 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         if last is not None and not _sweeps(pans):
             heading += 360.0 * round((last - heading) / 360.0)
         last = heading
-        pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL_TILT_DEG))
+        pitch = max(LOWEST_PITCH_DEG, min(HIGHEST_PITCH_DEG, tilt - LEVEL_TILT_DEG))
         rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
-    if not LOWEST_PITCH + LEVEL_TILT_DEG <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL_TILT_DEG:
+    if (
+        not LOWEST_PITCH_DEG + LEVEL_TILT_DEG
+        <= min(tilts)
+        <= max(tilts)
+        <= HIGHEST_PITCH_DEG + LEVEL_TILT_DEG
+    ):
         span = f"{min(tilts):g} to {max(tilts):g} deg"
         said = (
             *said,

@@ -14,7 +14,7 @@ from shotc.importers.multidrone.targets import OVERLAP_S
 from shotc.importers.multidrone.task import RoleTask
 from shotc.importers.notes import Notes
 
-SETTLE, PACE = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them
+SETTLE_S, PACE_M_S = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them
 TRANSFER_SHARE = 0.6  # largest share of an action's duration for the flight of its drones to their places
 SHORTEST_S = 2.0  # seconds
 WATCHING = frozenset(("STATIC", "ELEVATOR", "FLY_THROUGH", "FLYTHROUGH"))
@@ -28,7 +28,7 @@ def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -
         uncut = _cut(film, 0.0, unheard)
         starts = [shot_of(task_of(uncut, role, frame, unheard)).path[0] for role in film.action.roles]
         lengths = [dist(ended[k], at) for k, at in enumerate(starts, film.first) if k in ended]
-        cut = _cut(film, round(SETTLE + max(lengths) / PACE, 1) if lengths else 0.0, notes)
+        cut = _cut(film, round(SETTLE_S + max(lengths) / PACE_M_S, 1) if lengths else 0.0, notes)
         for k, role in enumerate(film.action.roles, film.first):
             ended[k] = shot_of(task_of(cut, role, frame, unheard)).path[2]
         yield cut

@@ -41,7 +41,7 @@ EARLY_S = 1.0  # seconds by which a drone is early, if it has the time
 HASTE_SHARE = 0.9  # share of EARLY_S that is given up if something passes its place
 DELAYS_S = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds of waiting
 WAIT_SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # shares of the spare time that it waits
-CLOSER, ZOOMS = 20, 2  # parts of a refined step near a target, and refinements
+CLOSER_PARTS, REFINEMENTS = 20, 2  # parts of a refined step near a target, and refinements
 LEAVES_S = 3.0  # seconds after a shot, in which the drone gets away from its end
 PROVED_M = 1e-6  # metres
 WAITED_M = 1e3  # metres, penalty for a clearance that costs too long a wait
@@ -331,11 +331,11 @@ def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Targ
     verification.
     """
     step, most, when = STEP_S, -inf, float(times[0])
-    for _ in range(1 + ZOOMS):
+    for _ in range(1 + REFINEMENTS):
         lack = _needs(what, radius, course.upright(times)) - distances(
             what.part, course.at(times) - what.at(times)
         )
         most, when = float(lack.max()), float(times[int(lack.argmax())])
-        inside = np.linspace(max(when - step, times[0]), min(when + step, times[-1]), 2 * CLOSER + 1)
-        step, times = step / CLOSER, inside
+        inside = np.linspace(max(when - step, times[0]), min(when + step, times[-1]), 2 * CLOSER_PARTS + 1)
+        step, times = step / CLOSER_PARTS, inside
     return TargetConflict(what.owner, when, most, course.phase(when))

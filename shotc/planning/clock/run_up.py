@@ -26,7 +26,7 @@ SPLINE_RATIO = 1.05  # time of a spline over the least time, because its control
 SETTLE_S = 0.4  # seconds beyond that, in which camera and position settle
 SHORTEST_S = 2.0  # least seconds: a shorter one has too few pieces for a refiner
 
-GOES_ON, ACROSS = 0.4, 0.7
+GOES_ON_SHARE, ACROSS_SHARE = 0.4, 0.7
 """Of a run-up that leads aside: the share flown at the film's speed, and the share in which the shift is
 done.
 """
@@ -67,8 +67,10 @@ class RunUp:
             _bounds(limits, _either_way(limits, shift)).rest_to_rest(level),
             _bounds(limits, min(limits.climb, limits.descent)).rest_to_rest(rise),
         )
-        least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
-        return replace(self, seconds=least / (1.0 - GOES_ON) if shift.any() else self.seconds, shift=shift)
+        least = max(self.seconds, SPLINE_RATIO * needed / ACROSS_SHARE + SETTLE_S)
+        return replace(
+            self, seconds=least / (1.0 - GOES_ON_SHARE) if shift.any() else self.seconds, shift=shift
+        )
 
     def at(self, away: Array) -> Array:
         """Return positions (M, 3) at times (M,) relative to the film's end, seconds; negative is before the
@@ -79,11 +81,11 @@ class RunUp:
         camera would run into a drone that slows down first.
         """
         x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
-        goes_on = GOES_ON if self.shift.any() else 0.0
+        goes_on = GOES_ON_SHARE if self.shift.any() else 0.0
         y = np.minimum(x / (1.0 - goes_on), 1.0)
         evenly = np.minimum(1.0 - x, goes_on)
         flown = self.seconds * (evenly + (1.0 - goes_on) * (0.5 - y**3 + 0.5 * y**4))
-        beside = minimum_jerk(np.minimum((1.0 - x) / ACROSS, 1.0))
+        beside = minimum_jerk(np.minimum((1.0 - x) / ACROSS_SHARE, 1.0))
         straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
         return np.asarray(straight + beside[:, None] * self.shift)
 

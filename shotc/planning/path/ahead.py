@@ -23,7 +23,7 @@ from shotc.planning.path.body import FAINT_WEIGHT, UPRIGHT_SLOPE
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
-FINER = (4, 8, 16, 32)  # pieces for each piece of the position curve
+PIECE_FACTORS = (4, 8, 16, 32)  # pieces for each piece of the position curve
 MOST_HALVINGS = 12  # halvings of pieces on which the course turns by much of the cone
 SAMPLES_PER_PIECE = 4
 KEPT_SHARE = 0.97  # share of the half-angle that is used, because the course is sampled
@@ -63,7 +63,7 @@ def course_of(drone: Drone, position: Piecewise, half_angle: float) -> CourseBou
 
     None if the curve is vertical, or if its corners leave no yaw in the cone.
     """
-    for finer in FINER:
+    for finer in PIECE_FACTORS:
         course = _sampled(drone, position, half_angle, subdivide(position.breaks, finer))
         if course is None or (course.low < course.high).all():
             return course
@@ -75,7 +75,7 @@ def finer_course(drone: Drone, position: Piecewise, half_angle: float, width: fl
 
     Where the curve reverses, its course turns within a short part of its length.
     """
-    breaks = subdivide(position.breaks, FINER[0])
+    breaks = subdivide(position.breaks, PIECE_FACTORS[0])
     for _ in range(MOST_HALVINGS):
         course = _sampled(drone, position, half_angle, breaks)
         if course is None:

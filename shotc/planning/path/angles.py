@@ -32,7 +32,7 @@ from shotc.solvers.spline_fit import Fit, fit, within
 
 PIECES_PER_STRETCH = 3  # per stretch between keyframes, at least
 SAMPLES_PER_PIECE = 6  # per piece
-FINER = (1, 2, 4, 8)
+PIECE_FACTORS = (1, 2, 4, 8)
 CLOSE_RAD = 1.5e-3  # rad on the sphere, error of the fit above which the grid is refined
 STIFF_WEIGHT = 1e-13  # weight of smoothness over that of samples, both without dimension
 FAINT_WEIGHT = 1e-2  # weight of samples where nothing is framed, over the others
@@ -146,7 +146,7 @@ def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLin
     if not len(samples.s) and not samples.planned:
         return best
     fitted: CameraLine | None = None
-    for finer in FINER:
+    for finer in PIECE_FACTORS:
         breaks = subdivide(base, finer)
         samples = _sample(mission, drone, keyed, breaks, hfov)
         status, curve = _fitted(drone, samples, breaks, turn)

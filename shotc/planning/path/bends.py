@@ -22,7 +22,7 @@ from shotc.geom.vec import wrapped
 from shotc.planning.free_space import FreeSpace, shortfall, taper
 from shotc.planning.obstacles import FreeSpaces
 
-LENGTHS = (0.2, 0.45)  # lengths of bends over that of the transfer
+LENGTH_SHARES = (0.2, 0.45)  # lengths of bends over that of the transfer
 LONGEST_M = 30.0  # longest bend; a drone is at full speed by then
 SHARES = (0.4, 1.0)  # shares of the turn on the spot that a bend saves
 LEAST_RAD = 0.02  # least turn on the spot for which a bend is tried
@@ -38,7 +38,7 @@ def bent_starts(position: Piecewise, over: float) -> Iterator[Piecewise]:
     breaks = position.breaks
     rate = position.derivative()(breaks[0])
     long = float(breaks[-1] - breaks[0])
-    for s in dict.fromkeys(float(breaks[0]) + min(part * long, LONGEST_M) for part in LENGTHS):
+    for s in dict.fromkeys(float(breaks[0]) + min(part * long, LONGEST_M) for part in LENGTH_SHARES):
         rest = restrict(position, np.concatenate([[s], breaks[breaks > s + ROUNDING_M]]))
         joint = [position.derivative(order)(s) if order else position(s) for order in range(3)]
         for share in SHARES:

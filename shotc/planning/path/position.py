@@ -40,7 +40,7 @@ EXCESS_PRICE = 10.0  # price of speed and acceleration above nominal, over the e
 MOST_ROUNDS = 4
 FIRST_SHARE = 0.5  # share of its slack that a chord keeps
 LATER_SHARE = 0.95  # the same for a solved curve; less would use up the margins
-FINER = (1, 2, 4)
+PIECE_FACTORS = (1, 2, 4)
 STRAIGHT_M = 1e-9  # metres
 GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iteration
 
@@ -105,7 +105,7 @@ def solve_stretch(
         return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
     rounds = 0
     status, problem = Status.FAILED, None
-    for finer in FINER:
+    for finer in PIECE_FACTORS:
         breaks = subdivide(stretch.s, PIECES_PER_CHORD * finer)
         problem, best, used = _iterate((space, wide or space), stretch, limits, breaks)
         rounds += used

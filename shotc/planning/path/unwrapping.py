@@ -26,7 +26,7 @@ from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns
 
 EASE_RATIO = 1.3  # least time of an interval over the shortest turn from rest to rest
-SLOWER = (1.0, 1.5, 2.0, 3.0)  # factors of that time, tried for methods whose curve is flown
+SLOWER_RATIOS = (1.0, 1.5, 2.0, 3.0)  # factors of that time, tried for methods whose curve is flown
 LONGEST_KEYFRAMES = 24  # most keyframes that are decided together
 TURNS = ".headings"
 """Key of statistics: how the turns of a shot are flown."""
@@ -138,7 +138,7 @@ def _chosen(known: list[Known], how: TurnRules) -> tuple[Array, Headings]:
     turns = np.abs([n if t is None else t for t, n in zip(stated, nearest_turns(yaw), strict=True)])
     flown = np.diff([k.s for k in known]) / how.speed
     at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE_RATIO * _shortest(turns, how)))])
-    for longer in SLOWER if how.method in FLOWN else SLOWER[:1]:
+    for longer in SLOWER_RATIOS if how.method in FLOWN else SLOWER_RATIOS[:1]:
         task = HeadingTask(longer * at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
         solution = solve_headings(task, how.method)
         if solution.curve is not None:

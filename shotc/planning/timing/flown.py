@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 HULL_HALVINGS = 3
 # Quintics whose error from the path exceeds the first (metres or rad) get more knots, as do those that leave
 # a gimbal's range by more than the second; at most this many times.
-STRAY, AT_END = 5e-4, 1e-7
+STRAY_M, RANGE_ROUNDING = 5e-4, 1e-7
 MOST_SPLITS = 5
 
 
@@ -83,14 +83,14 @@ def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceili
     t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
     s = profile.curve()(t)[..., 0]
     offset = flown(t) - path(s)
-    strays = np.abs(offset).max(axis=(1, 2)) > STRAY
+    strays = np.abs(offset).max(axis=(1, 2)) > STRAY_M
     gimbal_yaw = flown.ctrl[:, :, CAM_YAW] - flown.ctrl[:, :, BODY_YAW]
     for angle, error, (low, high) in (
         (flown.ctrl[:, :, CAM_PITCH], offset[:, :, CAM_PITCH], ceiling.pitch),
         (gimbal_yaw, offset[:, :, CAM_YAW] - offset[:, :, BODY_YAW], ceiling.yaw),
     ):
-        beyond = (angle.min(axis=1) < low - AT_END) | (angle.max(axis=1) > high + AT_END)
-        strays |= beyond & (np.abs(error).max(axis=1) > AT_END)
+        beyond = (angle.min(axis=1) < low - RANGE_ROUNDING) | (angle.max(axis=1) > high + RANGE_ROUNDING)
+        strays |= beyond & (np.abs(error).max(axis=1) > RANGE_ROUNDING)
     return np.asarray(strays)
 
 

@@ -17,10 +17,10 @@ Array = NDArray[np.float64]
 # Seconds of motion per cell; bounds of the number of cells, the upper one growing with the pieces of a path
 # that bends often.
 CELL_S = 0.12
-FEWEST, MOST, PER_PIECE = 36, 100, 2
+FEWEST_CELLS, MOST_CELLS, CELLS_PER_PIECE = 36, 100, 2
 # Shares of the cells distributed evenly over the length and over changes of speed; the rest is distributed
 # over the time.
-OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
+OVER_LENGTH_SHARE, OVER_CHANGE_SHARE = 0.15, 0.25
 # Largest jump of the third derivative over its maximum, for a break that counts as smooth.
 KINK_SHARE = 1e-2
 # Smoothing rounds of a rough profile: with them it loses a third against the best, without 70 %.
@@ -152,10 +152,10 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     step[[0, -1]] *= 1.5
     time = np.concatenate([[0.0], np.cumsum(step)])
     pieces = int(np.sum((curve.breaks > s[0]) & (curve.breaks < s[-1]))) + 1
-    count = int(np.clip(np.ceil(time[-1] / CELL_S), FEWEST, max(MOST, PER_PIECE * pieces)))
+    count = int(np.clip(np.ceil(time[-1] / CELL_S), FEWEST_CELLS, max(MOST_CELLS, CELLS_PER_PIECE * pieces)))
     change = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(sd)))])
-    mass = (1 - OVER_LENGTH - OVER_CHANGE) * time / time[-1]
-    mass += OVER_LENGTH * (s - s[0]) / (s[-1] - s[0]) + OVER_CHANGE * change / change[-1]
+    mass = (1 - OVER_LENGTH_SHARE - OVER_CHANGE_SHARE) * time / time[-1]
+    mass += OVER_LENGTH_SHARE * (s - s[0]) / (s[-1] - s[0]) + OVER_CHANGE_SHARE * change / change[-1]
     fixed = np.concatenate([kinks(curve), nodes])
     gap = 1e-9 * (s[-1] - s[0])
     fixed = np.unique(fixed[(fixed > s[0] + gap) & (fixed < s[-1] - gap)])

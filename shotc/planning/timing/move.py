@@ -44,7 +44,7 @@ MOST_STEPS = 6
 SLOWEST_SHARE = 1e-9
 # Share of the last iterate in the next one. It provides the speed inside cells, which would otherwise
 # oscillate by about 0.4 (measured); the initial guess has a smaller share.
-KEEP_FIRST, KEEP = 0.15, 0.3
+FIRST_ITERATE_SHARE, ITERATE_SHARE = 0.15, 0.3
 # A grid is refined where the flown quintics lose more than this share of time to scaling, or everywhere if
 # the solver failed; at most so often, and up to so many cells.
 LOSS_SHARE = 0.015
@@ -251,7 +251,7 @@ def bounded_profile(
         time = float(cell_times(problem.widths, profile.b, profile.a).sum())
         if abs(last - time) < CHANGE_SHARE * time:
             break
-        current = current.blend(profile, KEEP_FIRST if last == np.inf else KEEP)
+        current = current.blend(profile, FIRST_ITERATE_SHARE if last == np.inf else ITERATE_SHARE)
         last = time
     return best, steps
 

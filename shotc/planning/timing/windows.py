@@ -24,7 +24,7 @@ LIMIT_ROUNDS = 8
 MARGIN_SHARE = 0.985
 # After so many rounds the search fails if a law violates limits by more than the second, and by hardly less
 # than the law before.
-SETTLED, LEFT = 3, 1e-3
+SETTLED_ROUNDS, LEFT_RATIO = 3, 1e-3
 # An inaccurate law is accepted, because it is checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
 
@@ -50,7 +50,7 @@ def windowed_move(
         if needed <= 1.0:
             return TimedMove(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
         previous, law = law, time_law(t, places, _path_limits(path, inner, law.s), law)
-        if steps >= SETTLED and law.overdraft > max(LEFT, 0.7 * previous.overdraft):
+        if steps >= SETTLED_ROUNDS and law.overdraft > max(LEFT_RATIO, 0.7 * previous.overdraft):
             return None
     return None
 

@@ -21,9 +21,9 @@ from shotc.ir.light_colors import tick_colors
 from shotc.ir.mission import MissionIR
 from shotc.rounding import as_minutes
 
-LUMINANCE = (0.2126, 0.7152, 0.0722)
+LUMINANCE_WEIGHTS = (0.2126, 0.7152, 0.0722)
 """Weights of red, green and blue light."""
-CHANGE, BRIGHT = 0.1, 0.8
+CHANGE_LUMINANCE, BRIGHT_LUMINANCE = 0.1, 0.8
 MOST_FLASHES_PER_S = 3
 """Most flashes in any second."""
 SAMPLED_LIGHTS = 200
@@ -71,7 +71,7 @@ def luminance(flight: FleetTrajectory) -> Array:
         tick_colors(flight, ticks[k : k + BATCH_TIMES], some).mean(axis=0)
         for k in range(0, len(ticks), BATCH_TIMES)
     ]
-    return np.asarray(np.concatenate(parts) @ np.array(LUMINANCE) / 255.0)
+    return np.asarray(np.concatenate(parts) @ np.array(LUMINANCE_WEIGHTS) / 255.0)
 
 
 def most_flashes(levels: Array) -> Flashes:
@@ -93,10 +93,10 @@ def _changes(levels: Array) -> list[int]:
     for k, level in enumerate(levels.tolist()):
         low = low if rising else min(low, level)
         high = high if rising is False else max(high, level)
-        if not rising and level >= low + CHANGE and low < BRIGHT:
+        if not rising and level >= low + CHANGE_LUMINANCE and low < BRIGHT_LUMINANCE:
             rising, high = True, level
             changes.append(k)
-        elif rising is not False and level <= high - CHANGE and level < BRIGHT:
+        elif rising is not False and level <= high - CHANGE_LUMINANCE and level < BRIGHT_LUMINANCE:
             rising, low = False, level
             changes.append(k)
     return changes

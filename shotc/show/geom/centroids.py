@@ -20,8 +20,8 @@ Labels = NDArray[np.intp]
 
 MOST_STEPS = 100
 """Most iterations."""
-GAIN, LARGEST, PATIENCE = 3e-6, 3e-3, 3
-"""Stopping rule: relative gain of the cost in PATIENCE iterations, for each goal and at most. For many goals,
+GAIN_RATIO, LARGEST_GAIN_RATIO, STALLED_ITERATIONS = 3e-6, 3e-3, 3
+"""Stopping rule: relative gain of the cost in STALLED_ITERATIONS, for each goal and at most. For many goals,
 further gains are below the noise of random points. For few goals each one is visible, and iterations are
 cheap.
 """
@@ -125,7 +125,7 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
     goals, momentum = start, np.zeros_like(start)
     near = _Nearest(points, goals)
     costs: list[float] = []
-    enough = min(LARGEST, GAIN * len(goals))
+    enough = min(LARGEST_GAIN_RATIO, GAIN_RATIO * len(goals))
     for _ in range(MOST_STEPS):
         # BLAS threads would cost more than such a short sum.
         cost = float(np.einsum("m,m->", near.own, near.own) + anchor * np.sum((goals - start) ** 2))
@@ -133,7 +133,10 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
             goals, momentum = near.follow(goals, -momentum), np.zeros_like(momentum)
         else:
             costs.append(cost)
-        if len(costs) > PATIENCE and costs[-1 - PATIENCE] - costs[-1] <= enough * costs[-1]:
+        if (
+            len(costs) > STALLED_ITERATIONS
+            and costs[-1 - STALLED_ITERATIONS] - costs[-1] <= enough * costs[-1]
+        ):
             break
         moved = _step(near.points, near.labels, goals, (start, anchor))
         momentum = boldness * moved + MOMENTUM_SHARE * momentum

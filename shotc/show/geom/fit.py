@@ -17,7 +17,7 @@ MOST_DARK_SHARE = 0.95
 """Largest share of a fleet that may stay dark in a picture without enough room."""
 ROGERS_SHARE = 0.7797
 """Largest share of a truncated Voronoi cell that its ball fills in space (Rogers 1958)."""
-TRUNCATED = sqrt(1.5)
+TRUNCATED_RADII = sqrt(1.5)
 """Radius of truncation in that theorem, in radii of the ball."""
 ROUNDING = 1e-9
 GROWTH_STEP_SHARE = 0.01  # accuracy of the growth factor
@@ -52,7 +52,7 @@ def _scaled(picture: Picture, factor: float) -> Picture:
 
 def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:
     """Bound by volume: every ball has its own truncated cell near the shape."""
-    reach = TRUNCATED * gap / 2
+    reach = TRUNCATED_RADII * gap / 2
     wide = reach * max(1.0, 1 / stretch)  # contains the cells' reach in unscaled space
     if isinstance(source, Sphere):
         volume = stretch * 4 / 3 * pi * (source.radius + wide) ** 3

@@ -35,7 +35,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 from shotc.show.geom.arcs import evenly, sampled
 
-COARSE, FINE = 40, 16
+COARSE_INTERVALS, FINE_PARTS = 40, 16
 """Intervals of the direction, and parts of each in the fine search."""
 NEAREST_AXIS = 1e-5
 """Least ratio of b to a, and of a to b, that is distinguished from the axes. Directions are spread by the
@@ -55,7 +55,7 @@ ROUNDING = 1e-9
 
 
 def _directions() -> Array:
-    ratio = np.geomspace(NEAREST_AXIS, 1.0 / NEAREST_AXIS, COARSE * FINE - 1)
+    ratio = np.geomspace(NEAREST_AXIS, 1.0 / NEAREST_AXIS, COARSE_INTERVALS * FINE_PARTS - 1)
     return np.concatenate([[0.0], ratio / (1.0 + ratio), [1.0]])
 
 
@@ -154,9 +154,9 @@ def least_size(before: Array, after: Array) -> LeastSize:
     most = np.ones(len(DIRECTIONS) - 1)
     if not len(r0):
         return LeastSize(most)
-    coarse = DIRECTIONS[::FINE]
+    coarse = DIRECTIONS[::FINE_PARTS]
     low, high = _coarse(r0, r1, coarse)
-    for k, (first, last) in enumerate(pairwise(range(0, len(DIRECTIONS), FINE))):
+    for k, (first, last) in enumerate(pairwise(range(0, len(DIRECTIONS), FINE_PARTS))):
         # A pair that is always farther apart than another pair's maximum determines nothing.
         asking = low[:, k] < min(high[k], 1.0)
         if asking.any():

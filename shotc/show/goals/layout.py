@@ -40,7 +40,7 @@ from shotc.show.goals.spaced import (
     thinned_out,
 )
 
-DENSE, THIN = 40, 20
+DENSE_POINTS, THIN_POINTS = 40, 20
 """Points per goal: for few goals, and for more than ``MANY_DRONES``, where the tessellation is expensive."""
 MANY_DRONES = 2000
 LEAST_POINTS = 2000
@@ -329,7 +329,10 @@ def _placed(
     frames: list[PlacedGoals] = []
     for body in bodies:
         flat = isinstance(body, FlatBody)
-        count = max(LEAST_FLAT_POINTS if flat else LEAST_POINTS, n * (DENSE if n <= MANY_DRONES else THIN))
+        count = max(
+            LEAST_FLAT_POINTS if flat else LEAST_POINTS,
+            n * (DENSE_POINTS if n <= MANY_DRONES else THIN_POINTS),
+        )
         points = body.draw(fill, count, np.random.default_rng(list(task.seed)))
         wrong = _wrong(task, setting, body, points)
         if points is None or wrong is not None:

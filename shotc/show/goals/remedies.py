@@ -11,7 +11,7 @@ from typing import NamedTuple
 from shotc.ir.show import Picture
 from shotc.show.geom.sizes import enlarged, size_words
 
-SPARE, MORE = 1.03, 1.08
+SPARE_RATIO, MORE_RATIO = 1.03, 1.08
 """Factor on the calculated growth, and a further factor if a try with the first fails."""
 
 Fits = Callable[[Picture], bool]
@@ -63,9 +63,9 @@ def remedies(
     tall : height of a model in its present size, m
     """
     number, growth = held
-    factor = SPARE * growth
+    factor = SPARE_RATIO * growth
     if not fits(enlarged(picture, factor, lowest, tall)):
-        factor *= MORE
+        factor *= MORE_RATIO
     larger = enlarged(picture, factor, lowest, tall)
     share = 1.0 / factor
     return PictureRemedies(

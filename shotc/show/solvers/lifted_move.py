@@ -31,17 +31,17 @@ from shotc.show.solvers.move import family
 
 PIECES = (16, 24, 32, 40)
 """Possible numbers of pieces of a lifted move."""
-EVERY = 12
+PROFILE_STRIDE = 12
 """Stride of the tried profiles in the family."""
 STEP_M = 1.0
 """Step on the longest path at which the required height is evaluated."""
-FEWEST, MOST = 33, 257
+FEWEST_POINTS, MOST_POINTS = 33, 257
 """Least and largest number of points of a path at which it is evaluated."""
 STEPS = 600
 """Points of a path at which its height is stored."""
-EXTENSIONS = (0.0, 0.005, 0.01, 0.02)
+EXTENSION_SHARES = (0.0, 0.005, 0.01, 0.02)
 """Shares of the flown length by which the required height is extended on either side."""
-WIDTHS = (0.0, 0.02, 0.05, 0.1)
+WIDTH_SHARES = (0.0, 0.02, 0.05, 0.1)
 """Shares of the path on either side over which its height is smoothed."""
 SAMPLES = 8
 """Points per piece at which the height is compared with the requirement."""
@@ -164,7 +164,7 @@ def rising_paths(
     """
     far, paths = _farthest(ends), []
     for line in course.ways():
-        share = np.linspace(0.0, 1.0, int(np.clip(far / STEP_M, FEWEST, MOST)))
+        share = np.linspace(0.0, 1.0, int(np.clip(far / STEP_M, FEWEST_POINTS, MOST_POINTS)))
         at = np.column_stack(
             [np.interp(share, np.linspace(0.0, 1.0, len(line)), line[:, k]) for k in range(2)]
         )
@@ -222,7 +222,7 @@ def _fastest(busy: Drones, course: Course, path: RisingPath, line: Array, easing
     passed = np.linspace(0.0, 1.0, len(line))
     best = LiftedShape(np.zeros((0, 2)), np.zeros(0), inf)
     for pieces in PIECES:
-        shapes = family(pieces, easing)[0][::EVERY]
+        shapes = family(pieces, easing)[0][::PROFILE_STRIDE]
         if not len(shapes):
             continue
         along = np.interp(shapes, times, passed)
@@ -251,7 +251,7 @@ def _lines(far: float, rise: Rise) -> Iterator[Array]:
     share = np.linspace(0.0, 1.0, 2 * STEPS + 1)
     need = rise.at(share)
     flown = far + 2.0 * float(need.max())
-    for extension in EXTENSIONS:
+    for extension in EXTENSION_SHARES:
         steps = round(extension * flown / far * 2 * STEPS)
         yield from _smoothed(far, share, _concave(share, maximum_filter1d(need, 2 * steps + 1)))
 
@@ -261,7 +261,7 @@ def _smoothed(far: float, share: Array, height: Array) -> Iterator[Array]:
     passed = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(share) * far, np.diff(height)))])
     even = np.linspace(0.0, passed[-1], STEPS + 1)
     line = [np.interp(even, passed, channel) for channel in (share, height)]
-    for width in WIDTHS:
+    for width in WIDTH_SHARES:
         half = round(width * STEPS)
         kernel = np.ones(2 * half + 1) / (2 * half + 1)
         smooth = np.column_stack(

@@ -26,7 +26,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings.energy import cubic, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
 
-NEAREST, FARTHEST = 0.5, 4.0  # radii of inner keyframes
+NEAREST_RADIUS, FARTHEST_RADIUS = 0.5, 4.0  # radii of inner keyframes
 CLEAR_RADIUS = 0.3  # r_min of the half-planes
 WIDE_LIMIT_RATIO = 8.0  # factor on the limits, for s' and s''
 SAMPLES_PER_PIECE = 4  # samples of a piece
@@ -123,8 +123,8 @@ def _keyframes(problem: ConeRows, task: HeadingTask, angles: Array, where: tuple
     turn = np.column_stack([-direction[ends, 1], direction[ends, 0]]) * rates[:, None]
     for axis in range(2):
         problem.zero([((2 + axis) * knots + 2 * ends, np.ones(2))], -turn[:, axis])
-    problem.positive(np.full(count, -NEAREST), [(r, np.ones(count))])
-    problem.positive(np.full(count, FARTHEST), [(r, -np.ones(count))])
+    problem.positive(np.full(count, -NEAREST_RADIUS), [(r, np.ones(count))])
+    problem.positive(np.full(count, FARTHEST_RADIUS), [(r, -np.ones(count))])
 
 
 def _bends(problem: ConeRows, grid: _Grid, bends: int) -> None:

@@ -167,4 +167,4 @@ def test_a_small_target_is_seen_inside_of_its_mark(monkeypatch: pytest.MonkeyPat
     for plan, dots in ((straight_down(), 5), (small, 0)):
         discs.clear()
         page.draw_page(plan, 40.0)
-        assert discs.count(frame.DOT) == dots
+        assert discs.count(frame.DOT_IN) == dots

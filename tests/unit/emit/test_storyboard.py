@@ -13,7 +13,7 @@ from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import compass, metres
 from shotc.emit.storyboard.furniture import LOWER_FIRST, corner, round_length
 from shotc.emit.storyboard.labels import MapLabel, free_room
-from shotc.emit.storyboard.page import WIDTH, headline, layout, not_promised
+from shotc.emit.storyboard.page import WIDTH_IN, headline, layout, not_promised
 from shotc.emit.storyboard.scene import painting_order
 from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
@@ -38,7 +38,7 @@ def test_the_storyboard_is_one_png_of_the_page_s_size_and_always_the_same() -> N
     (artifact,) = emission.artifacts
     assert artifact.name == "storyboard.png"
     width, height = size_of(artifact.data)
-    assert width == WIDTH * DPI
+    assert width == WIDTH_IN * DPI
     assert 600 < height < 1400
     assert artifact.data == EMITTER.emit(orbit_plan()).artifacts[0].data
     assert b"Software" not in artifact.data
@@ -117,8 +117,8 @@ def test_panels_keep_their_aspect_and_fit_the_page(aspect: float, shots: int) ->
     assert place.picture[0] / place.picture[1] == pytest.approx(aspect)
     assert place.picture[0] <= place.cell + 1e-9
     assert place.columns >= 3
-    used = place.map_width + 0.35 + place.columns * (place.cell + page.GAP) - page.GAP
-    assert used <= WIDTH - 2 * page.MARGIN + 1e-9
+    used = place.map_width + 0.35 + place.columns * (place.cell + page.GAP_IN) - page.GAP_IN
+    assert used <= WIDTH_IN - 2 * page.MARGIN_IN + 1e-9
 
 
 def test_text_is_as_wide_as_measured() -> None:

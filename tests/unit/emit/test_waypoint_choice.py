@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from shotc.emit.dji import EMITTER as DJI
 from shotc.emit.litchi import EMITTER as LITCHI
-from shotc.emit.waypoints.choose import MEAN, WORST
+from shotc.emit.waypoints.choose import MEAN_HALF_FRAMES, WORST_HALF_FRAMES
 from shotc.emit.waypoints.stations import stations_of
 from shotc.emit.waypoints.track import track_of
 from tests.support.film_plans import orbit_mission
@@ -50,8 +50,10 @@ def test_few_points_keep_shots_within_their_bounds(moves: list[Move], emitter):
     worst = float(note.split("adds at most ")[1].split()[0])
     mean = float(note.split(") and ")[1].split()[0])
     # Where points can be no nearer to each other, what is beyond the bounds is told, and nothing else.
-    assert [d.code for d in emission.diagnostics] == (["E117"] if worst > WORST or mean > MEAN else [])
-    assert worst <= 3.0 * WORST
+    assert [d.code for d in emission.diagnostics] == (
+        ["E117"] if worst > WORST_HALF_FRAMES or mean > MEAN_HALF_FRAMES else []
+    )
+    assert worst <= 3.0 * WORST_HALF_FRAMES
     assert float(note.split("position within ")[1].split()[0]) <= 1.05
     assert int(note.split(": ")[1].split()[0]) < 60
 

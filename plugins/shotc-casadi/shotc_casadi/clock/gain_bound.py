@@ -9,7 +9,7 @@ from shotc_casadi.clock.problem import ClockProblem, table_of
 from shotc_casadi.clock.symbols import CONTROL_POINTS, FIELDS, PLANE_PARAMETERS
 from shotc_casadi.solving import Solution
 
-ALIKE = 0.3  # cosine of the angle between two normals, above which one half-space replaces the other
+ALIKE_COSINE = 0.3  # cosine of the angle between two normals, above which one half-space replaces the other
 
 
 def gain_bound(task: ClockProblem, solution: Solution, planes: HalfSpaces, reach: float) -> float:
@@ -61,5 +61,5 @@ def _recession(old: Array, new: Array, points: Array, reach: float) -> Array:
     alike = np.einsum("nid,njd->nij", old[:, :, :3], new[:, :, :3])
     share = np.arange(CONTROL_POINTS) / (CONTROL_POINTS - 1)
     slack = np.einsum("njd,npd->njp", new[:, :, :3], points) - new[:, :, 3, None] - new[:, :, 4, None] * share
-    far = np.maximum(slack[:, None], 0.0) / np.maximum(alike, ALIKE)[..., None]
-    return np.asarray(np.where((alike > ALIKE)[..., None], far, reach).min(axis=2, initial=reach))
+    far = np.maximum(slack[:, None], 0.0) / np.maximum(alike, ALIKE_COSINE)[..., None]
+    return np.asarray(np.where((alike > ALIKE_COSINE)[..., None], far, reach).min(axis=2, initial=reach))

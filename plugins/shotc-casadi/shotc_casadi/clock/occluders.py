@@ -29,7 +29,7 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.references import INNER_M, ClockReferences, ClockSubject
 from shotc_casadi.clock.symbols import SIGHT_LINE_PARAMETERS
 
-ENCLOSES = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
+ENCLOSING_RATIO = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
 WIDER_RATIO = 1.2  # for balls and infinite solids: wider, so that they count before they hide
 KHACHIYAN_STEPS = 200  # of Khachiyan's method
 NEAR_DV = 8.0  # of -d_v: lines of sight within three times the ellipsoid count
@@ -181,8 +181,8 @@ def enclosing(part: Solid) -> tuple[Array, Array]:
     ends = isfinite(part.bottom) and isfinite(part.top)
     half = 0.5 * (part.top - part.bottom)
     scale = np.zeros((3, 3))
-    scale[:2, :2] = flat / (ENCLOSES if ends else WIDER_RATIO)
-    scale[2, 2] = 1.0 / (ENCLOSES * half) if ends else 0.0
+    scale[:2, :2] = flat / (ENCLOSING_RATIO if ends else WIDER_RATIO)
+    scale[2, 2] = 1.0 / (ENCLOSING_RATIO * half) if ends else 0.0
     return scale, np.array([*middle, 0.5 * (part.bottom + part.top) if ends else 0.0])
 
 

@@ -208,7 +208,7 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
     near, paid = 1.0 / references.usual**2, _unit(references)
     smoother = subject.placed.shot.smoother
-    binds, turn = _binds(subject, references), np.array(weights.TURN)
+    binds, turn = _binds(subject, references), np.array(weights.TURN_WEIGHTS)
     free = references.placed and not subject.together
     turn = np.where(
         filmed[:, None],

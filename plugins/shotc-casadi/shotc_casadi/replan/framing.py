@@ -29,8 +29,8 @@ from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, ho
 from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, rows, within
 from shotc_casadi.replan.pictures import (
-    COMMON,
-    EACH,
+    COMMON_PARAMETERS,
+    EACH_PARAMETERS,
     CameraSymbols,
     Symbols,
     clear,
@@ -49,11 +49,11 @@ SHARED_PARAMETERS = (
     13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects
 )
 
-NEAR, NEAR_COMMON = 3, 5
+NEAR_PARAMETERS, NEAR_COMMON_PARAMETERS = 3, 5
 """Parameters of the reference pose, after those of the bodies.
 
-NEAR of a stage: its position. NEAR_COMMON of all stages: yaw and pitch, and the square roots of the weights
-of position, yaw and pitch.
+NEAR_PARAMETERS of a stage: its position. NEAR_COMMON_PARAMETERS of all stages: yaw and pitch, and the square
+roots of the weights of position, yaw and pitch.
 """
 
 Cast = tuple[bool, ...]
@@ -105,11 +105,11 @@ class Framing:
 def _fill(s: FramingSituation, given: Array, common: Array) -> None:
     """Write the subjects and the reference pose into the parameters."""
     for i, body in enumerate(s.subjects):
-        at, own = BOUND_PARAMETERS + EACH * i, SHARED_PARAMETERS + COMMON * i
+        at, own = BOUND_PARAMETERS + EACH_PARAMETERS * i, SHARED_PARAMETERS + COMMON_PARAMETERS * i
         appearance = body.wanted or Appearance()
         given[:, at : at + 3], given[:, at + 3 : at + 6] = body.point[1:], body.centre[1:]
-        given[:, at + 6 : at + EACH] = 0.0 if appearance.view is None else appearance.view[1:]
-        common[own : own + COMMON] = [
+        given[:, at + 6 : at + EACH_PARAMETERS] = 0.0 if appearance.view is None else appearance.view[1:]
+        common[own : own + COMMON_PARAMETERS] = [
             *(appearance.uv or (0.0, 0.0)),
             appearance.size or 1.0,
             body.diameter,
@@ -118,11 +118,14 @@ def _fill(s: FramingSituation, given: Array, common: Array) -> None:
             appearance.size is not None,
             appearance.view is not None,
         ]
-    at, own = BOUND_PARAMETERS + EACH * len(s.subjects), SHARED_PARAMETERS + COMMON * len(s.subjects)
-    given[:, at : at + NEAR], common[own : own + NEAR_COMMON] = 0.0, 0.0
+    at, own = (
+        BOUND_PARAMETERS + EACH_PARAMETERS * len(s.subjects),
+        SHARED_PARAMETERS + COMMON_PARAMETERS * len(s.subjects),
+    )
+    given[:, at : at + NEAR_PARAMETERS], common[own : own + NEAR_COMMON_PARAMETERS] = 0.0, 0.0
     if s.near is not None:
-        given[:, at : at + NEAR] = s.near.places[1:]
-        common[own : own + NEAR_COMMON] = _drawn(s, s.near, common[0])
+        given[:, at : at + NEAR_PARAMETERS] = s.near.places[1:]
+        common[own : own + NEAR_COMMON_PARAMETERS] = _drawn(s, s.near, common[0])
 
 
 def _drawn(s: FramingSituation, near: DrawnPose, place: float) -> list[float]:
@@ -156,18 +159,21 @@ def stage(of: RowCounts, cast: Cast) -> StageExpressions:
     """Return one stage of the problem in symbols."""
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
-    bodied, own = BOUND_PARAMETERS + EACH * k, BOUND_PARAMETERS + EACH * k + NEAR
-    shared_count = SHARED_PARAMETERS + COMMON * k
-    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", shared_count + NEAR_COMMON + of.common)
+    bodied, own = (
+        BOUND_PARAMETERS + EACH_PARAMETERS * k,
+        BOUND_PARAMETERS + EACH_PARAMETERS * k + NEAR_PARAMETERS,
+    )
+    shared_count = SHARED_PARAMETERS + COMMON_PARAMETERS * k
+    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", shared_count + NEAR_COMMON_PARAMETERS + of.common)
     near, shared = (
-        (p[bodied:own], g[shared_count : shared_count + NEAR_COMMON]),
-        g[shared_count + NEAR_COMMON :],
+        (p[bodied:own], g[shared_count : shared_count + NEAR_COMMON_PARAMETERS]),
+        g[shared_count + NEAR_COMMON_PARAMETERS :],
     )
     step, most, (turn, tilt) = shared[0], shared[2], (g[9], g[10])
     bodies = [
         Symbols.of(
-            p[BOUND_PARAMETERS + EACH * i : BOUND_PARAMETERS + EACH * (i + 1)],
-            g[SHARED_PARAMETERS + COMMON * i : SHARED_PARAMETERS + COMMON * (i + 1)],
+            p[BOUND_PARAMETERS + EACH_PARAMETERS * i : BOUND_PARAMETERS + EACH_PARAMETERS * (i + 1)],
+            g[SHARED_PARAMETERS + COMMON_PARAMETERS * i : SHARED_PARAMETERS + COMMON_PARAMETERS * (i + 1)],
         )
         for i in range(k)
     ]

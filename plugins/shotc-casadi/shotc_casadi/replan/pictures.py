@@ -12,7 +12,7 @@ INFLATED_RATIO = 1.3
 """Factor on the ellipsoid of a body that may cover a subject."""
 FIELD_M = 0.8
 """How far the potential field of a body reaches beyond its ellipsoid, metres."""
-EACH, COMMON = 9, 10
+EACH_PARAMETERS, COMMON_PARAMETERS = 9, 10
 
 
 class Symbols(NamedTuple):
@@ -36,7 +36,7 @@ class Symbols(NamedTuple):
 
     @classmethod
     def of(cls, p: Any, g: Any) -> Symbols:
-        """Return the subject of its parameters, EACH of a stage and COMMON of all stages."""
+        """Return the subject of its EACH_PARAMETERS of a stage and COMMON_PARAMETERS of all stages."""
         return cls(p[:3], p[3:6], p[6:9], g[:2], g[2], g[3], g[4:7], g[7], g[8], g[9])
 
 

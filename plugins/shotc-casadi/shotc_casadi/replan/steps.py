@@ -16,7 +16,7 @@ from shotc_casadi.replan.evaluation import Evaluation, Horizon, Rollout
 
 SHORTER_RATIO = 0.4
 MOST_TRIES = 5
-TOLERANCE, GAP = 1e-4, 1e-4
+TOLERANCE, GAP_TOLERANCE = 1e-4, 1e-4
 """Of PIQP: of the constraints, and of the cost, relative and absolute."""
 MOST_ITERATIONS = 50
 """Of PIQP: about 10 are usual; an infeasible programme takes all of them."""
@@ -108,6 +108,6 @@ def _solver() -> Any:
     solver = piqp.SparseSolver()
     settings = solver.settings
     settings.eps_abs = settings.eps_rel = TOLERANCE
-    settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = GAP
+    settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = GAP_TOLERANCE
     settings.max_iter, settings.preconditioner_iter = MOST_ITERATIONS, 0
     return solver

@@ -32,7 +32,7 @@ from shotc.solvers.conic import Status
 
 PAD_DIRECTIONS = 24
 """Directions in which a free pad is searched."""
-FARTHER = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
+FARTHER_RATIOS = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
 """Distances of the search, in units of what the pad lacks."""
 NUDGE_M = 0.02
 """Metres added to these, because the place is printed to centimetres."""
@@ -93,7 +93,7 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     lacks.
     """
     x, y, z = drone.home
-    distances = (*(share * lack + NUDGE_M for share in FARTHER), *FAR_M)
+    distances = (*(share * lack + NUDGE_M for share in FARTHER_RATIOS), *FAR_M)
     for metres, k in product(distances, range(PAD_DIRECTIONS)):
         angle = 2.0 * pi * k / PAD_DIRECTIONS
         there = drone._replace(home=(round(x + metres * sin(angle), 2), round(y + metres * cos(angle), 2), z))

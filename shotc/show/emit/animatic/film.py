@@ -23,13 +23,13 @@ from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.night import GLOW_M
 from shotc.show.emit.contact_sheet.scenery import Scenery, scenery
 
-WIDTH, HEIGHT = 480, 270
-RATE, MOST = 4.0, 180
+WIDTH_PX, HEIGHT_PX = 480, 270
+RATE_HZ, MOST_FRAMES = 4.0, 180
 """Frames a second, and most frames of the film; a longer show has fewer frames a second in real time."""
 
 SPOT_PX, SPREAD_PX = 1.3, 7.0
 """Standard deviations of a light's spot and of its bloom, pixels."""
-LIGHT, BLOOM = 9.0, 5.0
+SPOT_STRENGTH, BLOOM_STRENGTH = 9.0, 5.0
 """Strengths of spot and bloom; brightness saturates exponentially."""
 
 COARSE_PX = 5
@@ -65,7 +65,7 @@ def _times(plan: VerifiedIR) -> tuple[Array, float]:
     lit = np.any([light_colors(flight, seconds).any(axis=(0, 2)) for flight in flights], axis=0)
     shining = seconds[lit] if lit.any() else seconds
     start, end = max(float(shining[0]) - 1.0, 0.0), float(shining[-1]) + 1.0
-    step = ceil(100.0 * max(1.0 / RATE, (end - start) / MOST)) / 100.0
+    step = ceil(100.0 * max(1.0 / RATE_HZ, (end - start) / MOST_FRAMES)) / 100.0
     return np.arange(start, end, step), step
 
 
@@ -78,11 +78,11 @@ def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
         if not len(these):
             continue
         mission = plan.trajectory.keyframes.mission
-        behind = scenery(mission, audience(plan, mission.display(display), ASPECT), (WIDTH, HEIGHT))
+        behind = scenery(mission, audience(plan, mission.display(display), ASPECT), (WIDTH_PX, HEIGHT_PX))
         sky = behind.colors.astype(np.float32)
         views = [_seen(flight, these, behind) for flight in flights]
         for k, time in enumerate(these):
-            light = np.zeros((HEIGHT, WIDTH, 3), dtype=np.float32)
+            light = np.zeros((HEIGHT_PX, WIDTH_PX, 3), dtype=np.float32)
             for spots, colors in views:
                 _add(light, spots[:, k], colors[:, k])
             yield _picture(sky, light, float(time))
@@ -106,12 +106,14 @@ def _seen(flight: FleetTrajectory, times: Array, behind: Scenery) -> tuple[Array
     """
     at = places(flight.breaks, flight.coef, times)
     offset = at - np.array(behind.seen.eye)
-    view = behind.seen.view(WIDTH / HEIGHT)
+    view = behind.seen.view(WIDTH_PX / HEIGHT_PX)
     u, v, depth = view.project((offset[..., 0], offset[..., 1], offset[..., 2]))
     inside = (depth > 0.5) & (np.abs(u) < 1.0) & (np.abs(v) < 1.0)
     inside &= ~behind.hides(at.reshape(-1, 3)).reshape(inside.shape)
-    pixels = np.where(inside, GLOW_M / (np.maximum(depth, 0.5) * 2.0 * float(view.half_width)) * WIDTH, 0.0)
-    spots = np.stack([(u + 1.0) / 2.0 * WIDTH - 0.5, (1.0 - v) / 2.0 * HEIGHT - 0.5, pixels], axis=-1)
+    pixels = np.where(
+        inside, GLOW_M / (np.maximum(depth, 0.5) * 2.0 * float(view.half_width)) * WIDTH_PX, 0.0
+    )
+    spots = np.stack([(u + 1.0) / 2.0 * WIDTH_PX - 0.5, (1.0 - v) / 2.0 * HEIGHT_PX - 0.5, pixels], axis=-1)
     shine = light_colors(flight, times).astype(np.float32) / 255.0
     return spots, shine
 
@@ -125,24 +127,28 @@ def _add(light: Levels, spots: Array, colors: Levels) -> None:
     across, down = x - column, y - row
     for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
         share = (down if i else 1.0 - down) * (across if j else 1.0 - across)
-        at = np.clip(row + i, 0, HEIGHT - 1), np.clip(column + j, 0, WIDTH - 1)
+        at = np.clip(row + i, 0, HEIGHT_PX - 1), np.clip(column + j, 0, WIDTH_PX - 1)
         np.add.at(light, at, glow * share[:, None].astype(np.float32))
 
 
 def _picture(sky: Levels, light: Levels, time: float) -> Image.Image:
     spot = gaussian_filter(light, (SPOT_PX, SPOT_PX, 0.0), truncate=3.0)
-    coarse = light.reshape(HEIGHT // COARSE_PX, COARSE_PX, WIDTH // COARSE_PX, COARSE_PX, 3).mean(axis=(1, 3))
+    coarse = light.reshape(HEIGHT_PX // COARSE_PX, COARSE_PX, WIDTH_PX // COARSE_PX, COARSE_PX, 3).mean(
+        axis=(1, 3)
+    )
     wide = gaussian_filter(coarse, (SPREAD_PX / COARSE_PX, SPREAD_PX / COARSE_PX, 0.0), truncate=3.0)
     spread = np.stack([_wide(wide[..., k]) for k in range(3)], axis=-1)
-    shade = 1.0 - (1.0 - sky) * np.exp(-(LIGHT * spot + BLOOM * spread))
+    shade = 1.0 - (1.0 - sky) * np.exp(-(SPOT_STRENGTH * spot + BLOOM_STRENGTH * spread))
     picture = Image.fromarray(np.asarray(np.round(255.0 * shade), dtype=np.uint8))
-    ImageDraw.Draw(picture).text((6, HEIGHT - 16), as_minutes(time), fill=(DIM_LEVEL, DIM_LEVEL, DIM_LEVEL))
+    ImageDraw.Draw(picture).text(
+        (6, HEIGHT_PX - 16), as_minutes(time), fill=(DIM_LEVEL, DIM_LEVEL, DIM_LEVEL)
+    )
     return picture
 
 
 def _wide(channel: Levels) -> NDArray[np.float32]:
     """Return one channel of a coarse picture in full size."""
-    image = Image.fromarray(channel, "F").resize((WIDTH, HEIGHT), Image.Resampling.BILINEAR)
+    image = Image.fromarray(channel, "F").resize((WIDTH_PX, HEIGHT_PX), Image.Resampling.BILINEAR)
     return np.asarray(image, dtype=np.float32)
 
 

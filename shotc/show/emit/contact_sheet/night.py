@@ -20,10 +20,10 @@ UNLIT_GREY_LEVEL = 26.0
 GLOW_M = 0.35
 """Radius of the glow of a light, metres."""
 
-SMALLEST, LARGEST = 0.0022, 0.011
+SMALLEST_SHARE, LARGEST_SHARE = 0.0022, 0.011
 """Smallest and largest radius of the glow in a picture, over the picture's width."""
 
-BLOOM, SPREAD = 5.0, 0.011
+BLOOM_STRENGTH, SPREAD_SHARE = 5.0, 0.011
 """Strength and width of a light's bloom, the latter over the picture's width."""
 
 
@@ -37,7 +37,9 @@ def night(flights: Sequence[FleetTrajectory], time: float, behind: Scenery) -> N
     visible, lit = ~behind.hides(at), colors.any(axis=1)
     width = behind.size[0]
     light = _lights(at[visible & lit], colors[visible & lit], behind)
-    light += BLOOM * gaussian_filter(light, (SPREAD * width, SPREAD * width, 0.0), truncate=3.0)
+    light += BLOOM_STRENGTH * gaussian_filter(
+        light, (SPREAD_SHARE * width, SPREAD_SHARE * width, 0.0), truncate=3.0
+    )
     dark = _lights(at[visible & ~lit], colors[visible & ~lit], behind)
     light += np.minimum(dark, UNLIT_GREY_LEVEL / 255.0)  # many of them shine no more than one
     picture = 1.0 - (1.0 - behind.colors) * np.exp(-light)
@@ -61,7 +63,7 @@ def _lights(at: Array, colors: Colors, behind: Scenery) -> Array:
     share = GLOW_M / (depth * 2.0 * float(view.half_width))
     for i in np.flatnonzero(in_view):
         x, y = (u[i] + 1.0) / 2.0 * columns - 0.5, (1.0 - v[i]) / 2.0 * rows - 0.5
-        radius = columns * float(np.clip(share[i], SMALLEST, LARGEST))
+        radius = columns * float(np.clip(share[i], SMALLEST_SHARE, LARGEST_SHARE))
         _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT_GREY_LEVEL / 255.0))
     return picture
 

@@ -22,13 +22,13 @@ from shotc.show.emit.contact_sheet.night import hidden_lights, night
 from shotc.show.emit.contact_sheet.scenery import Scenery, scenery
 from shotc.show.emit.contact_sheet.stands import NUMBER_IN, number
 
-WIDTH, MARGIN, GAP = 16.0, 0.55, 0.34
-HEADING, FOOTING, BAND, CAPTION = 1.30, 0.35, 0.60, 0.46
-MAP, COLUMNS = 3.9, 2
+WIDTH_IN, MARGIN_IN, GAP_IN = 16.0, 0.55, 0.34
+HEADING_IN, FOOTING_IN, BAND_IN, CAPTION_IN = 1.30, 0.35, 0.60, 0.46
+MAP_IN, COLUMNS = 3.9, 2
 SLIT_IN = 0.05
 """Gap between small frames, and between them and the large one, inches."""
 
-CELL = (WIDTH - 2 * MARGIN - MAP - 0.35 + GAP) / COLUMNS - GAP
+CELL = (WIDTH_IN - 2 * MARGIN_IN - MAP_IN - 0.35 + GAP_IN) / COLUMNS - GAP_IN
 BIG = (CELL - SLIT_IN + 2 * SLIT_IN / FRAMES_BETWEEN * ASPECT * (FRAMES_BETWEEN - 1) / 2) / (
     1 + 1 / FRAMES_BETWEEN
 )
@@ -45,10 +45,10 @@ def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
 
 def _page(plan: VerifiedIR, dpi: float) -> bytes:
     sheets = boards(plan)
-    height = HEADING + sum(_height(board) for board in sheets) + FOOTING
-    canvas = Canvas(WIDTH, height, dpi)
+    height = HEADING_IN + sum(_height(board) for board in sheets) + FOOTING_IN
+    canvas = Canvas(WIDTH_IN, height, dpi)
     _heading(canvas, height, plan)
-    top = height - HEADING
+    top = height - HEADING_IN
     for board in sheets:
         _board(canvas, top, (board, dpi), plan)
         top -= _height(board)
@@ -61,19 +61,19 @@ def _rows(board: Board) -> int:
 
 def _height(board: Board) -> float:
     """Return the height of a display's part of the page, inches."""
-    return BAND + max(_rows(board) * (HEIGHT + CAPTION), LEAST_MAP_IN) + 0.22
+    return BAND_IN + max(_rows(board) * (HEIGHT + CAPTION_IN), LEAST_MAP_IN) + 0.22
 
 
 def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
     mission = plan.trajectory.keyframes.mission
-    canvas.write(MARGIN, height - 0.72, mission.name, Type(26, INK, bold=True), WIDTH - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 0.72, mission.name, Type(26, INK, bold=True), WIDTH_IN - 2 * MARGIN_IN)
     fleets = ", ".join(f"{len(flight.coef)} drones of {flight.fleet}" for flight in plan.trajectory.fleets)
     pictures = sum(len(display.pictures) for display in mission.displays)
     end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
     facts = [fleets, f"{pictures} picture{'' if pictures == 1 else 's'}", f"{as_minutes(end)} in the air"]
     facts += _take_offs(plan)
     text = "   ·   ".join(facts)
-    canvas.write(MARGIN, height - 1.04, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
+    canvas.write(MARGIN_IN, height - 1.04, text, Type(11, QUIET), WIDTH_IN - 2 * MARGIN_IN)
 
 
 def _take_offs(plan: VerifiedIR) -> list[str]:
@@ -91,11 +91,11 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     board, dpi = what
     mission = plan.trajectory.keyframes.mission
     seen = audience(plan, board.display, ASPECT)
-    canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
+    canvas.lines([np.array([[MARGIN_IN, top], [WIDTH_IN - MARGIN_IN, top]])], FAINT, 0.8)
     _band(canvas, top, board, seen)
-    start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
-    tall = min(tall, max(LEAST_MAP_IN, map_height(board, MAP, seen)))
-    draw_ground(canvas, PageRectangle(MARGIN, start - tall, MAP, tall), board, mission, seen)
+    start, tall = top - BAND_IN, _height(board) - BAND_IN - 0.22 - 0.17
+    tall = min(tall, max(LEAST_MAP_IN, map_height(board, MAP_IN, seen)))
+    draw_ground(canvas, PageRectangle(MARGIN_IN, start - tall, MAP_IN, tall), board, mission, seen)
     # The first transition starts on the ground, which no picture shows.
     wide = audience(plan, board.display, ASPECT, board.moments[0].way)
     large, small, first = (
@@ -106,16 +106,16 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
             (wide, SMALL * ASPECT, SMALL),
         )
     )
-    left = MARGIN + MAP + 0.35
+    left = MARGIN_IN + MAP_IN + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, COLUMNS)
-        x, y = left + column * (CELL + GAP), start - row * (HEIGHT + CAPTION) - HEIGHT
+        x, y = left + column * (CELL + GAP_IN), start - row * (HEIGHT + CAPTION_IN) - HEIGHT
         _cell(canvas, (x, y), (board, moment), CellViews(large, first if i == 0 else small))
 
 
 def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
     base = top - 0.40
-    x = MARGIN + canvas.write(MARGIN, base, board.display.id, Type(15, INK, bold=True), 4.0) + 0.22
+    x = MARGIN_IN + canvas.write(MARGIN_IN, base, board.display.id, Type(15, INK, bold=True), 4.0) + 0.22
     first, last = board.span
     facts = [f"{len(board.flight.coef)} drones of {board.flight.fleet}"]
     facts.append(f"{as_minutes(first)} to {as_minutes(last)} ({last - first:.1f} s)")
@@ -125,7 +125,7 @@ def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
     canvas.write(x, base, text, Type(9.5, QUIET), 6.0)
     whose = "as seen from the viewpoint" if seen.placed else "as seen from the south, for want of a viewpoint"
     words = f"{whose}, {_distance(board, seen):.0f} m away"
-    canvas.text(WIDTH - MARGIN, base, words, Type(9.5, QUIET, across="right"))
+    canvas.text(WIDTH_IN - MARGIN_IN, base, words, Type(9.5, QUIET, across="right"))
 
 
 def _distance(board: Board, seen: Audience) -> float:

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from shotc.show.emit.animatic import EMITTER
-from shotc.show.emit.animatic.film import HEIGHT, MOST, WIDTH
+from shotc.show.emit.animatic.film import HEIGHT_PX, MOST_FRAMES, WIDTH_PX
 from tests.support import show_flights
 from tests.support.film_plans import orbit_plan
 
@@ -21,13 +21,13 @@ def test_it_plays_the_show_at_its_own_pace() -> None:
     assert file.name == "animatic.gif"
     assert len(file.data) < 3_000_000
     with Image.open(BytesIO(file.data)) as film:
-        assert film.size == (WIDTH, HEIGHT)
+        assert film.size == (WIDTH_PX, HEIGHT_PX)
         assert film.info["loop"] == 0
-        assert film.n_frames <= MOST  # type: ignore[attr-defined]
+        assert film.n_frames <= MOST_FRAMES  # type: ignore[attr-defined]
         frames, ends = [], [24.0]
         for k in range(film.n_frames):  # type: ignore[attr-defined]
             film.seek(k)
-            frames.append(np.asarray(film.convert("RGB")).astype(int)[: HEIGHT - 20])
+            frames.append(np.asarray(film.convert("RGB")).astype(int)[: HEIGHT_PX - 20])
             ends.append(ends[-1] + film.info["duration"] / 1000.0)
     # Lights come on at 24 s, and are out at 44 s.
     assert ends[-1] == pytest.approx(44.0, abs=0.3)

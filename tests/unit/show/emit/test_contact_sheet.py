@@ -19,7 +19,7 @@ from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet import EMITTER
 from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
 from shotc.show.emit.contact_sheet.night import UNLIT_GREY_LEVEL, hidden_lights, night
-from shotc.show.emit.contact_sheet.page import MAP, MARGIN, WIDTH
+from shotc.show.emit.contact_sheet.page import MAP_IN, MARGIN_IN, WIDTH_IN
 from shotc.show.emit.contact_sheet.scenery import Scenery, backdrop, scenery
 from shotc.show.emit.contact_sheet.stands import anchors, outlines
 from tests.support import show_flights
@@ -61,7 +61,7 @@ def crowded(count: int, apart: float) -> VerifiedIR:
 def test_the_map_has_a_number_for_each_picture_and_none_is_over_another(count: int, apart: float) -> None:
     with texts() as found:
         EMITTER.emit(crowded(count, apart))
-    here = [t for t in found if t.box.x < MARGIN + MAP and t.style.color != QUIET and t.style.size < 12]
+    here = [t for t in found if t.box.x < MARGIN_IN + MAP_IN and t.style.color != QUIET and t.style.size < 12]
     numbers = [t.text for t in here if t.text.isdigit()]
     assert sorted(numbers, key=int) == [str(k + 1) for k in range(count)]
     captions = [t.text for t in found if t.text.isdigit() and t not in here]
@@ -270,7 +270,7 @@ def test_no_time_is_written_over_the_lights_of_a_small_frame() -> None:
     times = [t for t in found if t.text in ways and t.style.color == QUIET]
     assert sorted(t.text for t in times) == sorted(ways)
     for t in times:
-        dots = page.shape[1] / WIDTH
+        dots = page.shape[1] / WIDTH_IN
         rows = slice(page.shape[0] - round(t.box.top * dots), page.shape[0] - round(t.box.y * dots))
         assert (
             page[rows, round(t.box.x * dots) : round(t.box.right * dots)].min() > 60
@@ -284,7 +284,7 @@ def test_the_map_has_relief_with_heights_and_the_houses_that_stand_there() -> No
     ground = terrain(ridge(60.0, at=25.0))
     with texts() as found:
         relief = EMITTER.emit(show_flights.plan(show_flights.mission(terrain=ground))).artifacts[0].data
-    here = [t for t in found if t.box.x < MARGIN + MAP]
+    here = [t for t in found if t.box.x < MARGIN_IN + MAP_IN]
     heights = [t for t in here if t.text.endswith(" m") and t.text.removesuffix(" m").isdigit()]
     assert heights
     assert any("contours" in t.text for t in here)

@@ -9,9 +9,9 @@ from shotc.ir.limits import Limits
 from shotc.show.geom.arcs import Gaps
 from shotc.show.solvers.lifted_move import (
     BEYOND_M,
-    EXTENSIONS,
+    EXTENSION_SHARES,
     STEPS,
-    WIDTHS,
+    WIDTH_SHARES,
     Course,
     Rise,
     RisingPath,
@@ -39,9 +39,9 @@ def test_the_drone_with_the_longest_way_tells_how_far_it_is() -> None:
 
 
 def test_heights_rise_to_a_wall_a_share_of_the_flown_length_before_it_and_fall_as_late() -> None:
-    lines = [line for k, line in enumerate(_lines(FAR_M, WALL)) if k % len(WIDTHS) == 0]
-    assert len(lines) == len(EXTENSIONS)
-    for extension, line in zip(EXTENSIONS, lines, strict=True):
+    lines = [line for k, line in enumerate(_lines(FAR_M, WALL)) if k % len(WIDTH_SHARES) == 0]
+    assert len(lines) == len(EXTENSION_SHARES)
+    for extension, line in zip(EXTENSION_SHARES, lines, strict=True):
         before = extension * (FAR_M + 2.0 * WALL_M) / FAR_M
         for inside in (0.5 - before + 0.002, 0.6 + before - 0.002, 0.55):
             assert height(line, inside) == pytest.approx(WALL_M, abs=1e-6)
@@ -55,13 +55,13 @@ def test_lines_begin_and_end_on_the_path_and_have_steps_of_one_flown_length() ->
     for k, line in enumerate(lines):
         assert line.shape == (STEPS + 1, 2)
         assert (line[0].tolist(), line[-1].tolist()) == ([0.0, 0.0], [1.0, 0.0])
-        if k % len(WIDTHS) == 0:
+        if k % len(WIDTH_SHARES) == 0:
             flown = np.hypot(np.diff(line[:, 0]) * FAR_M, np.diff(line[:, 1]))
             assert np.median(flown) == pytest.approx(flown.mean(), rel=0.01)
             assert flown.max() <= np.median(flown) * (1.0 + 1e-9)
         else:
-            half = round(WIDTHS[k % len(WIDTHS)] * STEPS)
-            sharp = lines[k - k % len(WIDTHS)]
+            half = round(WIDTH_SHARES[k % len(WIDTH_SHARES)] * STEPS)
+            sharp = lines[k - k % len(WIDTH_SHARES)]
             mean = sharp[STEPS // 2 - half : STEPS // 2 + half + 1].mean(axis=0)
             assert line[STEPS // 2] == pytest.approx(mean)
 

@@ -21,7 +21,10 @@ from shotc.rounding import at_least, up
 from shotc.show.labels import pads_path, wider
 
 UNEVEN_M = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
-FARTHEST, MANY = 60, 400  # largest distance of the search for a free place, metres, and most drones for it
+FARTHEST_M, MANY_DRONES = (
+    60,
+    400,
+)  # largest distance of the search for a free place, metres, and most drones for it
 
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
@@ -242,9 +245,9 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
             _too_near(mission, other, there, advise=False) for other in others
         )
 
-    if len(fleet.pads) > MANY:
+    if len(fleet.pads) > MANY_DRONES:
         return "move the layout, or the obstacle"
-    for metres in range(1, FARTHEST + 1):
+    for metres in range(1, FARTHEST_M + 1):
         for x, y, toward in ((1, 0, "east"), (-1, 0, "west"), (0, 1, "north"), (0, -1, "south")):
             there = _displaced(mission, fleet, (float(x * metres), float(y * metres)))
             if free(there):

@@ -18,7 +18,7 @@ from shotc.show.geom.shape import Ball, balls, depth_in, highest, lowest
 from shotc.show.geom.sizes import enlarged, resized, size_words
 from shotc.show.labels import centre_label, key_of, word_of
 
-FARTHEST, MANY = (
+FARTHEST_M, MANY_PAIRS = (
     60,
     2000,
 )  # largest distance of the search, metres; most pairs of balls and obstacles for it
@@ -190,9 +190,9 @@ def _high_enough(mission: MissionIR, fleet: Fleet, shape: tuple[Ball, ...]) -> b
 def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
     """Return the shortest shift that clears a picture of everything, in words; empty where none is found."""
     centre, around = picture.source.centre, clearances_of(mission, fleet)
-    if centre is None or len(shape) * len(around) > MANY:
+    if centre is None or len(shape) * len(around) > MANY_PAIRS:
         return ""
-    for metres in range(1, FARTHEST + 1):
+    for metres in range(1, FARTHEST_M + 1):
         for (x, y, z), direction in WAYS:
             by = (x * metres, y * metres, z * metres)
             there = tuple(ball._replace(centre=_plus(ball.centre, by)) for ball in shape)
