@@ -33,11 +33,12 @@ def at_most(value: float, digits: int = 2) -> str:
     return f"{down(value, digits):.{max(digits, 0)}f}"
 
 
-def nearer_than(value: float, limit: float, digits: int = 2) -> str:
+def nearer_than(value: float, limit: float) -> str:
     """Return a value rounded up as text, with enough decimals to stay below a limit that it is below.
 
     So two things come within the distance that is told, and it is told to be too small.
     """
+    digits = 2
     while value < limit <= up(value, digits) and digits < MOST_DECIMALS:
         digits += 1
     return at_least(value, digits)

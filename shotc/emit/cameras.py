@@ -35,11 +35,6 @@ def ticks(plan: VerifiedIR, drone: DroneTrajectory) -> Ticks:
     return Ticks(times, pose, rate, push)
 
 
-def hertz(plan: VerifiedIR) -> str:
-    """Return the number of ticks a second, as text for a note."""
-    return f"{plan.trajectory.keyframes.mission.rate:g}"
-
-
 def without_fleets(plan: VerifiedIR, what: str) -> tuple[str, ...]:
     """Return the note that fleets are left out of camera files; empty if the plan has no fleets."""
     if not plan.trajectory.fleets:

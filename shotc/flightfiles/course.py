@@ -88,7 +88,7 @@ class UntimedFlight:
         return next((leg for leg in self.legs if time < leg.end), self.legs[-1])
 
 
-class _Part(NamedTuple):
+class _UntimedLeg(NamedTuple):
     """A leg without a time.
 
     ctrl : control points (k, 4, 3) of each possible curve
@@ -149,7 +149,7 @@ def course_of(
 
 def _landing(
     drone: Drone, ends: tuple[Array, Array], to: tuple[FlightPoint, str], of: tuple[int, float]
-) -> Iterator[_Part]:
+) -> Iterator[_UntimedLeg]:
     """Yield the leg to above the landing place, and the descent from there."""
     (last, place), (count, away) = ends, of
     above = np.array([place[0], place[1], last[2]])
@@ -212,7 +212,7 @@ def _sizes(points: Sequence[FlightPoint], places: Array) -> Array:
 
 def _approach(
     drone: Drone, plan: Waypoints, to: tuple[FlightPoint, str], goal: tuple[Array, int]
-) -> Iterator[_Part]:
+) -> Iterator[_UntimedLeg]:
     """Yield the climb from the pad, and the legs to the first point."""
     first, count = goal
     home = np.array(drone.home)
@@ -230,7 +230,7 @@ def _legs(
     plan: Waypoints,
     kept: Sequence[tuple[FlightPoint, str, Array]],
     models: Sequence[list[Array]],
-) -> Iterator[_Part]:
+) -> Iterator[_UntimedLeg]:
     """Yield the legs between points, and the stays at points."""
     count = len(models)
     for i, (point, file, at) in enumerate(kept):
@@ -242,17 +242,19 @@ def _legs(
             to, name, end = kept[i + 1]
             duration, speed = _duration(end - at, _in_force(drone, plan, point.pace))
             speed_limit = None if point.pace is None else speed
-            yield _Part(tuple(legs[i] for legs in models), (to, name), duration, speed_limit, within=True)
+            yield _UntimedLeg(
+                tuple(legs[i] for legs in models), (to, name), duration, speed_limit, within=True
+            )
 
 
 def _straight(
     ends: tuple[Array, Array], to: tuple[FlightPoint, str], by: tuple[Drone, Pace | None], count: int
-) -> _Part:
+) -> _UntimedLeg:
     a, b = ends
     share = np.linspace(0.0, 1.0, 4)[:, None]
     ctrl = (a + share * (b - a))[None]
     duration, _ = _duration(b - a, _in_force(by[0], None, by[1]))
-    return _Part((ctrl,) * count, to, duration, None)
+    return _UntimedLeg((ctrl,) * count, to, duration, None)
 
 
 def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
@@ -281,7 +283,7 @@ def _duration(step: Array, pace: Pace) -> tuple[float, float]:
     return duration, length / duration
 
 
-def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[UntimedLeg, ...]]:
+def _timed(parts: Sequence[_UntimedLeg]) -> tuple[list[Piecewise], tuple[UntimedLeg, ...]]:
     """Return the curves over the times of their parts, and the legs."""
     ends = np.cumsum([0.0, *(part.seconds for part in parts)])
     spans = list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))

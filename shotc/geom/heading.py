@@ -22,7 +22,7 @@ from shotc.geom.vec import wrapped
 _NO_LENGTH = 1e-12
 
 
-class _Motion(NamedTuple):
+class _GroundMotion(NamedTuple):
     """A motion over ground on the same pieces: velocity, acceleration, heading, and the heading's rate."""
 
     velocity: Pieces
@@ -30,11 +30,11 @@ class _Motion(NamedTuple):
     heading: Pieces
     rate: Pieces
 
-    def pick(self, which: Mask) -> _Motion:
-        return _Motion(*(part.pick(which) for part in self))
+    def pick(self, which: Mask) -> _GroundMotion:
+        return _GroundMotion(*(part.pick(which) for part in self))
 
-    def halves(self) -> _Motion:
-        return _Motion(*(part.halves() for part in self))
+    def halves(self) -> _GroundMotion:
+        return _GroundMotion(*(part.halves() for part in self))
 
 
 def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -> ProvedExtreme:
@@ -45,7 +45,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
     If the whole motion is slow, both values are -inf.
     """
     velocity, heading = pieces.channels(0, 1).derivative(), pieces.channels(2)
-    motion = _Motion(velocity, velocity.derivative(), heading, heading.derivative())
+    motion = _GroundMotion(velocity, velocity.derivative(), heading, heading.derivative())
     best, at, closed, rest = -np.inf, 0.0, -np.inf, -np.inf
     for _ in range(MOST_HALVINGS):
         motion = motion.pick(norm(motion.velocity.ctrl).max(axis=1) > slow)
@@ -67,7 +67,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
     return ProvedExtreme(max(closed, best, rest), best, at)
 
 
-def _bounds(motion: _Motion) -> tuple[Array, Array]:
+def _bounds(motion: _GroundMotion) -> tuple[Array, Array]:
     """Return an upper bound of the angle on each piece, and its value in the middle, (M,) each."""
     v, a, heading = motion.velocity.ctrl, motion.acceleration.ctrl, motion.heading.ctrl[:, :, 0]
     middle = _middle(v)
@@ -95,7 +95,7 @@ def _bounds(motion: _Motion) -> tuple[Array, Array]:
     return np.minimum(upper, np.pi), np.abs(off)
 
 
-def _speed(motion: _Motion) -> Array:
+def _speed(motion: _GroundMotion) -> Array:
     return norm(_middle(motion.velocity.ctrl))
 
 

@@ -93,9 +93,9 @@ def outline_boards(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineBoar
     return OutlineBoards(_holding(eyes, middle, contour), through)
 
 
-def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = CELLS_PER_SIDE) -> OutlineRays:
+def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards) -> OutlineRays:
     """Return the rays to the outline of a shape at a centre, metres; on : the rectangles around it."""
-    boards = on.boards
+    boards, n = on.boards, CELLS_PER_SIDE
     eyes = np.repeat(boards.eye, n * n, axis=0)
     beyond = np.repeat(on.through, n * n)
     reach = entering(shape, centre, eyes, beyond[:, None] * (cells_of(boards, n) - eyes))

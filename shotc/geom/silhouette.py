@@ -171,10 +171,10 @@ def shape_outline(camera: View, offset: Vec3, shape: BodyShape, count: int = 48)
     return project_loop(camera, shape_contour(np.asarray(offset, dtype=np.float64), shape, count))
 
 
-def solid_outlines(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> list[Array]:
+def solid_outlines(camera: View, eye: Vec3, solid: Solid) -> list[Array]:
     """Return one convex screen polygon, shape (K, 2), for each convex part of a solid that is in view."""
     outlines = [
-        shape_outline(camera, *_seen_from(eye, part), count)
+        shape_outline(camera, *_seen_from(eye, part))
         if isinstance(part, Cylinder)
         else _prism_outline(camera, eye, part)
         for part in convex_parts(solid)
@@ -182,13 +182,13 @@ def solid_outlines(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> li
     return [outline for outline in outlines if len(outline)]
 
 
-def solid_edges(camera: View, eye: Vec3, solid: Solid, count: int = 48) -> list[Array]:
+def solid_edges(camera: View, eye: Vec3, solid: Solid) -> list[Array]:
     """Return the visible and hidden edges of a solid as screen polylines, each of shape (K, 2).
 
     Prisms give every edge; cylinders their two rims.
     """
     strips: list[Array] = []
-    for ring in (edge - np.asarray(eye) for edge in edge_strips(solid, count)):
+    for ring in (edge - np.asarray(eye) for edge in edge_strips(solid)):
         right, down, forward = camera.to_camera((ring[:, 0], ring[:, 1], ring[:, 2]))
         points = np.stack([right, down, forward], axis=-1)
         strips.extend(_to_screen(camera, run) for run in _clip_strip(points))

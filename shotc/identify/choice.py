@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bspline import IntArray
 from shotc.identify.clusters import LOOSE, Points
-from shotc.identify.cylinders import Upright
-from shotc.identify.views import CameraPose
 
 MIDDLE_DEVIATION_SHARE = 0.5
 """Standard deviation of the rays' weights about the middle of their box, in its half sides."""
@@ -56,20 +53,3 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
         return None
     second = int(order[1]) if len(order) > 1 and total[order[1]] > 0.0 else None
     return Choice(int(order[0]), float(total[order[0]] / total.sum()), second)
-
-
-def as_printed(camera: CameraPose, cylinders: Mapping[int, Upright] | Sequence[Upright]) -> int | None:
-    """Return the cylinder whose centre is nearest to the optical axis (Gebhardt and Hilliges, Sec. 5).
-
-    The result is None if no cylinder is in front of the camera.
-    """
-    numbers = list(cylinders) if isinstance(cylinders, Mapping) else list(range(len(cylinders)))
-    centres = np.array([cylinders[n].middle for n in numbers]).reshape(-1, 3)
-    eyes = camera.view
-    ahead = np.array([eyes.cos_pitch * eyes.cos_yaw, eyes.cos_pitch * eyes.sin_yaw, eyes.sin_pitch])
-    offset = centres - np.array(camera.eye)
-    along = offset @ ahead
-    if not (along > 0.0).any():
-        return None
-    off = np.linalg.norm(offset - along[:, None] * ahead, axis=1)
-    return numbers[int(np.where(along > 0.0, off, np.inf).argmin())]

@@ -1,4 +1,4 @@
-"""Vertical cylinders around points: the least one, and the one of Appendix F as printed."""
+"""The least vertical cylinder around points."""
 
 from __future__ import annotations
 
@@ -56,30 +56,11 @@ def enclosing(points: Array, ground: float) -> Upright:
 
     ground : z of the ground below them, metres
     """
-    return _upright(least_circle(points[:, :2]), points, ground)
+    return upright(least_circle(points[:, :2]), points, ground)
 
 
-def printed(points: Array, ground: float) -> Upright:
-    """Return the cylinder of Gebhardt and Hilliges, Appendix F, around points (P, 3).
-
-    The diameter of its circle is the farthest pair, so it need not contain all points. The paper states that
-    distance as the radius; it is halved here.
-    """
-    corners = _outermost(points[:, :2])
-    distances = np.linalg.norm(corners[:, None] - corners[None], axis=-1)
-    i, j = np.unravel_index(int(distances.argmax()), distances.shape)
-    middle = 0.5 * (corners[i] + corners[j])
-    circle = Circle((float(middle[0]), float(middle[1])), 0.5 * float(distances[i, j]))
-    return _upright(circle, points, ground)
-
-
-def outside(circle: Upright, points: Array) -> float:
-    """Return the share of points (P, 3) that are farther from a cylinder's axis than its radius."""
-    distances = np.hypot(points[:, 0] - circle.centre[0], points[:, 1] - circle.centre[1])
-    return float(np.mean(distances > circle.radius * ROUNDING_RATIO + 1e-9))
-
-
-def _upright(circle: Circle, points: Array, ground: float) -> Upright:
+def upright(circle: Circle, points: Array, ground: float) -> Upright:
+    """Return a cylinder over a circle, as high as points (P, 3), from the ground if they are near it."""
     bottom, top = float(points[:, 2].min()), float(points[:, 2].max())
     return Upright(circle.centre, circle.radius, ground if bottom < ground + TO_GROUND_M else bottom, top)
 
@@ -91,7 +72,7 @@ def least_circle(points: Array) -> Circle:
     E. Welzl, Smallest enclosing disks (1991), without recursion; the points are ordered by distance from the
     middle.
     """
-    corners = _outermost(points)
+    corners = outermost(points)
     corners = corners[np.argsort(-np.linalg.norm(corners - corners.mean(axis=0), axis=1), kind="stable")]
     circle = Circle(_pair(corners[0]), 0.0)
     for i, p in enumerate(corners):
@@ -108,7 +89,7 @@ def least_circle(points: Array) -> Circle:
     return circle
 
 
-def _outermost(points: Array) -> Array:
+def outermost(points: Array) -> Array:
     """Return the corners of the hull of points (P, 2); the two ends if they lie on a line."""
     if len(points) > 3:
         try:

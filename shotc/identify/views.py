@@ -141,7 +141,7 @@ def _laid(values: NDArray[_Kind], tiles: tuple[int, int]) -> NDArray[_Kind]:
     return np.asarray(shaped.transpose(order).reshape(up * n, across * n, *rest))
 
 
-class _Met(NamedTuple):
+class _FirstHits(NamedTuple):
     """First hits: depth, mesh and triangle, (rows, columns), and normal, (rows, columns, 3)."""
 
     depth: Array
@@ -150,7 +150,7 @@ class _Met(NamedTuple):
     normal: Array
 
 
-def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array) -> _Met:
+def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array) -> _FirstHits:
     """Return the first hit of each cell."""
     share, normal = _ground(mission, boards, tiles, ways)
     mesh = np.where(np.isfinite(share), GROUND, SKY)
@@ -163,7 +163,7 @@ def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], way
         mesh = np.where(closer, number, mesh)
         triangle[closer] = each.surface.source[its_triangle[closer]]
         normal[closer] = _normals(each.surface, its_triangle[closer], ways[closer])
-    return _Met(share, mesh, triangle, normal)
+    return _FirstHits(share, mesh, triangle, normal)
 
 
 def _ground(

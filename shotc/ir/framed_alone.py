@@ -34,8 +34,10 @@ def alone(scene: FramedScene) -> StartedFraming:
     target = scene.mission.target(subject.target)
     lowest = min((target.at(t) for t in scene.looks), key=lambda c: c[2])
     sizes = SMALLER if subject.size is None else (subject.size,)
-    tried = (_Beside(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition))
-    first = _Beside(scene, lowest, places_of(subject.composition)[0], sizes[0])
+    tried = (
+        _OffsetCamera(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition)
+    )
+    first = _OffsetCamera(scene, lowest, places_of(subject.composition)[0], sizes[0])
     fitting = next((one for one in tried if one.is_whole()), first)
     beside, points, (blocked, hidden), lost = _with_room(scene, target, fitting)
     ideal = scene.shot.ideal
@@ -47,7 +49,7 @@ def alone(scene: FramedScene) -> StartedFraming:
     return StartedFraming(shot, scene.times, poses, blocked, hidden, lost, scene.shot)
 
 
-class _Beside:
+class _OffsetCamera:
     """A camera that keeps an offset from one subject, with a place on screen and a size at the first frame.
 
     wanted : the subject at its lowest position with its required appearance at each knot of the course; one
@@ -109,13 +111,13 @@ def _stood(scene: FramedScene, subject: RequiredView, bearing: float) -> Vec3:
     return offset
 
 
-class _Tried(NamedTuple):
+class _FramingTry(NamedTuple):
     """A camera beside one subject, its offsets, and its ``FramedScene.shares``.
 
     lost : share of the frames in which the subject is half hidden
     """
 
-    beside: _Beside
+    beside: _OffsetCamera
     points: OffsetPoints
     shares: tuple[float, float]
     lost: float
@@ -126,7 +128,7 @@ class _Tried(NamedTuple):
         return shows(self.shares[0], self.lost)
 
 
-def _with_room(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
+def _with_room(scene: FramedScene, target: Target, beside: _OffsetCamera) -> _FramingTry:
     """Return a camera at its place, or where it has room and sees, as far as size and elevation are free."""
     best = _at_bearing(scene, target, beside)
     if scene.shot.subjects[0].size is None and (best.shares[0] > 0.0 or not best.shows):
@@ -134,11 +136,11 @@ def _with_room(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
     return best if best.shows else _from_above(scene, target, best)
 
 
-def _at_other_size(scene: FramedScene, target: Target, best: _Tried) -> _Tried:
+def _at_other_size(scene: FramedScene, target: Target, best: _FramingTry) -> _FramingTry:
     """Return a camera at the nearest size at which it has room and sees."""
     beside = best.beside
     for ratio in OTHER_SIZES if beside.wanted[0].azimuth is not None else FEW_OTHER_SIZES:
-        other = _Beside(scene, beside.wanted[0].centre, beside.uv, ratio * beside.size)
+        other = _OffsetCamera(scene, beside.wanted[0].centre, beside.uv, ratio * beside.size)
         if not other.is_whole():
             continue
         tried = _at_bearing(scene, target, other)
@@ -149,7 +151,7 @@ def _at_other_size(scene: FramedScene, target: Target, best: _Tried) -> _Tried:
     return best
 
 
-def _from_above(scene: FramedScene, target: Target, best: _Tried) -> _Tried:
+def _from_above(scene: FramedScene, target: Target, best: _FramingTry) -> _FramingTry:
     """Return a camera at the lowest elevation from which it sees all of its subject, if that is free.
 
     If there is none, it is the lowest one from which it sees most of it.
@@ -159,7 +161,7 @@ def _from_above(scene: FramedScene, target: Target, best: _Tried) -> _Tried:
         return best
     ceiling = scene.mission.rules.max_height or inf
     for elevation in ELEVATIONS_RAD:
-        higher = _Beside(scene, beside.wanted[0].centre, beside.uv, beside.size, elevation)
+        higher = _OffsetCamera(scene, beside.wanted[0].centre, beside.uv, beside.size, elevation)
         if not higher.is_whole():
             continue
         tried = _at_bearing(scene, target, higher)
@@ -173,13 +175,13 @@ def _from_above(scene: FramedScene, target: Target, best: _Tried) -> _Tried:
     return best
 
 
-def _at_bearing(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
+def _at_bearing(scene: FramedScene, target: Target, beside: _OffsetCamera) -> _FramingTry:
     """Return a camera at the required bearing, or at the clear one that is nearest to the drone's."""
     north = beside.points(0.0)
     if beside.wanted[0].azimuth is not None:
         return _tried(scene, target, beside, north)
     first = scene.comes_from(target.at(scene.start))
-    best: _Tried | None = None
+    best: _FramingTry | None = None
     for k in range(round(2 * pi / BEARING_STEP_RAD)):
         turned = beside.turned(north, first + BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1))
         tried = _tried(scene, target, beside, turned)
@@ -191,9 +193,9 @@ def _at_bearing(scene: FramedScene, target: Target, beside: _Beside) -> _Tried:
     return best
 
 
-def _tried(scene: FramedScene, target: Target, beside: _Beside, points: OffsetPoints) -> _Tried:
+def _tried(scene: FramedScene, target: Target, beside: _OffsetCamera, points: OffsetPoints) -> _FramingTry:
     eyes = [(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks]
     shares = scene.shares(eyes)
     # Where half of a subject is hidden, the hidden share is at least one half.
     may_be_lost = shares[1] > HALF_SHARE * HALF_SHARE
-    return _Tried(beside, points, shares, scene.lost(eyes) if may_be_lost else 0.0)
+    return _FramingTry(beside, points, shares, scene.lost(eyes) if may_be_lost else 0.0)

@@ -60,7 +60,7 @@ def _course(scene: FramedScene) -> StartedFraming:
     return StartedFraming(framed, scene.times, poses, blocked, hidden, scene.lost(eyes), shot)
 
 
-class _Opening(NamedTuple):
+class _FirstPose(NamedTuple):
     """A first pose, its cost, and the subjects with their places on screen."""
 
     cost: float
@@ -68,7 +68,7 @@ class _Opening(NamedTuple):
     subjects: tuple[Subject, ...]
 
 
-def _opening(scene: FramedScene) -> _Opening:
+def _opening(scene: FramedScene) -> _FirstPose:
     """Return the first pose for several subjects.
 
     Bearings all round are tried. Among the equally good ones a clear one is preferred, then the nearest to
@@ -93,7 +93,7 @@ def _opening(scene: FramedScene) -> _Opening:
     return polished if _score(scene, polished) <= tuple(least_hidden) else good[i]
 
 
-def _openings(scene: FramedScene) -> list[_Opening]:
+def _openings(scene: FramedScene) -> list[_FirstPose]:
     """Return the first poses of least cost for bearings all round, the nearest to the drone's first."""
     subjects = scene.shot.subjects
     required, bounds = scene.required_views(subjects, scene.start), scene.room_at(scene.start)
@@ -113,11 +113,11 @@ def _openings(scene: FramedScene) -> list[_Opening]:
         settled = _assigned(subjects, required, pose, scene.lens)
         if settled != subjects:
             pose, cost = viewpoint(scene.required_views(settled, scene.start), scene.lens, bounds, pose)
-        openings.append(_Opening(cost, pose, settled))
+        openings.append(_FirstPose(cost, pose, settled))
     return openings
 
 
-def _shows(scene: FramedScene, opening: _Opening) -> bool:
+def _shows(scene: FramedScene, opening: _FirstPose) -> bool:
     """Return whether an opening shows all subjects, and its course as well."""
     if scene.lost(_eyes((scene.start,), (opening.pose,))) > 0.0:
         return False  # computing a course costs more than an opening
@@ -125,13 +125,13 @@ def _shows(scene: FramedScene, opening: _Opening) -> bool:
     return shows(scene.blocked(eyes), scene.lost(eyes))
 
 
-def _score(scene: FramedScene, opening: _Opening) -> tuple[float, float]:
+def _score(scene: FramedScene, opening: _FirstPose) -> tuple[float, float]:
     """Return the share of a course with too little clearance, and the hidden share of its subjects."""
     eyes = _sampled(scene, opening)
     return scene.blocked(eyes), scene.covered(eyes)
 
 
-def _sampled(scene: FramedScene, opening: _Opening) -> list[tuple[float, Vec3]]:
+def _sampled(scene: FramedScene, opening: _FirstPose) -> list[tuple[float, Vec3]]:
     """Return some times and positions of the course after an opening."""
     times = scene.times[:: max(1, len(scene.times) // 6)]
     return _eyes(times, _follow(scene, opening, times))
@@ -141,7 +141,7 @@ def _eyes(times: Sequence[float], poses: Sequence[Pose]) -> list[tuple[float, Ve
     return [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
 
 
-def _polished(scene: FramedScene, opening: _Opening) -> _Opening:
+def _polished(scene: FramedScene, opening: _FirstPose) -> _FirstPose:
     """Return an opening, solved again from its result until the cost hardly falls."""
     cost, pose, subjects = opening
     required = scene.required_views(subjects, scene.start)
@@ -150,10 +150,10 @@ def _polished(scene: FramedScene, opening: _Opening) -> _Opening:
         if later > (1 - NEARLY_AS_GOOD_COST) * cost:
             break
         cost = later
-    return _Opening(cost, pose, subjects)
+    return _FirstPose(cost, pose, subjects)
 
 
-def _follow(scene: FramedScene, opening: _Opening, times: Sequence[float]) -> tuple[Pose, ...]:
+def _follow(scene: FramedScene, opening: _FirstPose, times: Sequence[float]) -> tuple[Pose, ...]:
     """Return the poses at times.
 
     The initial guess of each is the one before, moved along with the subjects.

@@ -22,7 +22,7 @@ BLOCK_COLORS = 400_000
 """Product of lights and samples that are evaluated at once: about 40 MB."""
 
 
-class _Rows(NamedTuple):
+class _Interpolation(NamedTuple):
     """Indices of a plan's times before and after each time, and the weight of the later one."""
 
     before: NDArray[np.intp]
@@ -69,7 +69,7 @@ def faded_colors(lights: Lights, t: Array, some: slice = slice(None)) -> Colors:
     return np.asarray(np.rint(one * (1.0 - share[:, None]) + other * share[:, None]), dtype=np.uint8)
 
 
-def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
+def shown_share(lights: Lights, t: Array) -> Levels:
     """Return the share with which each light belongs to a picture at times (T,), shape (n, T), 0 to 1.
 
     It is 0 for a drone that a picture leaves dark, and before and after all pictures.
@@ -81,7 +81,7 @@ def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
             shares[:, k] = 0.0
         else:
             shares[list(lights.looks[look].spare), k] = 0.0
-    return np.asarray(shares[some][:, before] * (1.0 - share) + shares[some][:, after] * share)
+    return np.asarray(shares[:, before] * (1.0 - share) + shares[:, after] * share)
 
 
 def lit_drones(flight: FleetTrajectory, t: Array) -> NDArray[np.bool_]:
@@ -94,11 +94,11 @@ def lit_drones(flight: FleetTrajectory, t: Array) -> NDArray[np.bool_]:
     return np.asarray(faded_colors(flight.lights, t).any(axis=-1))
 
 
-def _rows(lights: Lights, t: Array) -> _Rows:
+def _rows(lights: Lights, t: Array) -> _Interpolation:
     at = np.interp(t, lights.times, np.arange(len(lights.times)))
     before = np.minimum(at.astype(np.intp), max(len(lights.times) - 2, 0))
     after = np.minimum(before + 1, len(lights.times) - 1)
-    return _Rows(before, after, (at - before).astype(np.float32))
+    return _Interpolation(before, after, (at - before).astype(np.float32))
 
 
 def _stacked(lights: Lights, spots: Spots) -> Levels:

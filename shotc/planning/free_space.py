@@ -27,6 +27,7 @@ from shotc.planning.over_ground import OverGround
 
 COMFORT_M = 0.5  # metres that a curve keeps beyond the clearance where there is free space
 STEEPER_RATIO = 1.4  # slope of a planned taper over the needed one, because curves leave their polyline
+BREACH_M = 2e-6  # metres; a smaller lack is rounding
 MARGIN_M = 0.05  # metres beyond the clearances of verification; later stages interpolate
 
 
@@ -153,7 +154,7 @@ def _linear_slack(space: FreeSpace, p: Array) -> Array:
     return slack
 
 
-def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach]:
+def breaches(space: FreeSpace, p: Array) -> list[Breach]:
     """Return the constraints that one point (3,) violates, the largest lack first."""
     breaches = []
     for o in space.obstacles:
@@ -165,9 +166,9 @@ def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach
         breaches.append(Breach(d.owner, lack, 0.0))
     for surface in space.surfaces:
         lack = -float(surface.slack(p[None])[0])
-        owner = surface.owner_at(p) if lack > tolerance else surface.owner
+        owner = surface.owner_at(p) if lack > BREACH_M else surface.owner
         breaches.append(Breach(owner, lack, max(0.0, surface.clearance)))
-    return sorted((b for b in breaches if b.lack > tolerance), key=lambda b: -b.lack)
+    return sorted((b for b in breaches if b.lack > BREACH_M), key=lambda b: -b.lack)
 
 
 def required(obstacle: Obstacle, p: Array, margin: float) -> Array:

@@ -64,9 +64,9 @@ def moments(mission: MissionIR, earliest: float) -> str:
     return f"write `at: {{beat: {beat}}}` (bar {bar + 1}, beat {part + 1}), `at: {possible} s` or later"
 
 
-def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
+def centre_label(mission: MissionIR, picture: Picture) -> Label:
     """Return a label on the centre of a picture."""
-    return mission.origins.value((*key_of(picture), "center"), text)
+    return mission.origins.value((*key_of(picture), "center"))
 
 
 def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:

@@ -46,7 +46,7 @@ class ReplannerHangs(ReplannerFailed):
     """A replanner took more than its limit."""
 
 
-class _Order(NamedTuple):
+class _ReplanRequest(NamedTuple):
     """A replan; the problem is sent once for each planner, None after that."""
 
     number: int
@@ -103,7 +103,7 @@ class ReplannerProcess:
         problem = None if number in self._sent else self._planners[number].problem
         self._sent.add(number)
         answered, fault = self._within(
-            self._seconds, pickle.dumps(_Order(number, problem, situation, last)), "it took"
+            self._seconds, pickle.dumps(_ReplanRequest(number, problem, situation, last)), "it took"
         )
         if fault is not None:
             raise ReplannerFailed(fault)
@@ -198,7 +198,7 @@ def _check(plugin: EntryPoint) -> None:
     plugin.load()
 
 
-def _replanned(plugin: EntryPoint, planners: dict[int, Any], order: _Order) -> Any:
+def _replanned(plugin: EntryPoint, planners: dict[int, Any], order: _ReplanRequest) -> Any:
     """Return the answer of the planner that an order names; the planner is made if it is new."""
     if order.problem is not None:
         loaded = plugin.load()

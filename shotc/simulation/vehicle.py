@@ -132,13 +132,6 @@ def steered(
     return pushed, _bounded(vehicle, state.held + STEP_S * gain_i * missing)
 
 
-def moved(
-    vehicle: Vehicle, state: VehicleState, setpoint: VehicleSetpoint, wind: Array, error: Array | float = 0.0
-) -> VehicleState:
-    """Return the state of the default plant a ``STEP_S`` later; arguments as above."""
-    return Lagging(vehicle).carried(state, *steered(vehicle, state, setpoint, error), wind)
-
-
 def within(vectors: Array, most: float) -> Array:
     """Return vectors (R, D) shortened to a largest norm."""
     size = np.sqrt(np.einsum("rd,rd->r", vectors, vectors))[:, None]

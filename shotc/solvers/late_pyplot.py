@@ -15,7 +15,7 @@ from typing import Any
 PYPLOT = "matplotlib.pyplot"
 
 
-class _Late(ModuleType):
+class _LateModule(ModuleType):
     """A module that loads at the first access to an attribute."""
 
     def __getattr__(self, name: str) -> Any:
@@ -28,7 +28,7 @@ class _Late(ModuleType):
 def late_pyplot() -> Iterator[None]:
     """Give imports inside the block a pyplot that loads at first use; other modules do not see it."""
     absent = [name for name in ("matplotlib", PYPLOT) if name not in sys.modules]
-    sys.modules.update((name, _Late(name)) for name in absent)
+    sys.modules.update((name, _LateModule(name)) for name in absent)
     try:
         yield
     finally:

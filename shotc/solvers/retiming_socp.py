@@ -1,8 +1,8 @@
 """One step of the jerk-bounded retiming: a second-order cone program in b = sdot^2 and a = sddot.
 
 The motion has a constant jerk in s on every cell, so rest at both ends needs no special case (b1 = 1.5 h a1
-on the first cell). The shape of the speed inside a cell is that of the last iterate (``_Shape``). Then every
-limit is linear in b and a of the cell's two nodes,
+on the first cell). The shape of the speed inside a cell is that of the last iterate (``_SpeedShape``). Then
+every limit is linear in b and a of the cell's two nodes,
 
     |q'' b + q' a| <= 1                                 at nodes and middles,
     |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1 / v  at both ends and the middle,
@@ -29,6 +29,7 @@ Array = NDArray[np.float64]
 # Rows of a norm below this share of its limit are negligible and omitted.
 NEGLIGIBLE_SHARE = 1e-9
 NEAR_LIMIT_SHARE = 0.6  # share of its limit above which a norm of the last iterate may be active in the next
+SOLVER_TOLERANCE = 1e-6
 NEWTON_STEPS = 6  # to the middle of a cell; five leave an error of 1e-10, six none
 
 
@@ -97,7 +98,7 @@ def start_from(widths: Array, b: Array) -> Iterate:
     return Iterate(b, a)
 
 
-def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -> tuple[Status, Iterate]:
+def retime(problem: RetimingProblem, around: Iterate) -> tuple[Status, Iterate]:
     """Return the best profile near ``around``; meaningless unless the status is SOLVED or INACCURATE."""
     model = _Model(problem.widths, around)
     model.motion()
@@ -108,7 +109,7 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
         model.jerk(limit)
     model.times()
     near = WarmStart(model.start(), NEAR_LIMIT_SHARE)
-    status, x = model.rows.solve(model.total_time(), tolerance, scaled=True, near=near)
+    status, x = model.rows.solve(model.total_time(), SOLVER_TOLERANCE, scaled=True, near=near)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)
     if status in {Status.SOLVED, Status.INACCURATE}:
@@ -119,7 +120,7 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     return status, Iterate(b, a)
 
 
-class _Shape:
+class _SpeedShape:
     """The shape of the speed inside each cell, from the last iterate: quadratic in time.
 
     Over x = t / T in [0, 1] the speed over its mean is u = r0 (1 - x) + r1 x + k x (1 - x). Every part has
@@ -167,7 +168,7 @@ class _Model:
 
     def __init__(self, widths: Array, around: Iterate) -> None:
         self.widths = widths
-        self.shape = _Shape(widths, around)
+        self.shape = _SpeedShape(widths, around)
         self.nodes = len(around.b)
         self.b_unit = around.b.copy()
         self.b_unit[[0, -1]] = around.b[[1, -2]]

@@ -59,6 +59,6 @@ def profile_of(limits: LinearLimits, b: Array) -> FastestProfile:
     return FastestProfile(Status.SOLVED, b, time)
 
 
-def no_profile(limits: LinearLimits, status: Status = Status.FAILED) -> FastestProfile:
+def no_profile(limits: LinearLimits) -> FastestProfile:
     """Return the result of a solver that found no profile."""
-    return FastestProfile(status, np.zeros_like(limits.grid), float("inf"))
+    return FastestProfile(Status.FAILED, np.zeros_like(limits.grid), float("inf"))

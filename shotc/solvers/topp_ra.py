@@ -89,7 +89,7 @@ def _constraint_class() -> Any:
         from toppra.constraint import DiscretizationType, LinearConstraint
         from toppra.constraint.linear_constraint import canlinear_colloc_to_interpolate
 
-    class Limits(LinearConstraint):  # type: ignore[misc]
+    class ToppraLimits(LinearConstraint):  # type: ignore[misc]
         def __init__(self, limits: LinearLimits) -> None:
             super().__init__()
             self.limits = limits
@@ -114,4 +114,4 @@ def _constraint_class() -> Any:
             # A constraint returns (..., u bound, x bound); the helper above has the opposite order.
             return a, b, c, lhs, rhs, None, bound
 
-    return Limits
+    return ToppraLimits

@@ -1,7 +1,7 @@
 """A fault in the text of a mission. The YAML reader reports faults; it does not raise."""
 
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple, TypeVar, get_args
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from shotc.source.file import Span
 from shotc.source.limits import MAX_FAULTS
@@ -31,18 +31,16 @@ FaultKind = Literal[
     "unknown-alias",
     "recursive-alias",
 ]
-FAULT_KINDS: tuple[FaultKind, ...] = get_args(FaultKind)
 
 
 class Fault(NamedTuple):
     """One fault of the text.
 
-    kind    : one of ``FAULT_KINDS``
+    kind    : a ``FaultKind``
     message : states the fault, lower case, no final stop
     span    : the place to blame
     notes   : facts and numbers
     help    : the change that would make it work, or an empty string
-    remark  : a few words shown at the span, or an empty string
     related : further places, each with a few words (the first of two equal keys, an opening bracket)
     """
 
@@ -51,7 +49,6 @@ class Fault(NamedTuple):
     span: Span
     notes: tuple[str, ...] = ()
     help: str = ""
-    remark: str = ""
     related: tuple[tuple[Span, str], ...] = ()
 
 

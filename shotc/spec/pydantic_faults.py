@@ -31,11 +31,9 @@ def fault(
     return PydanticCustomError(slug, "{message}", context)
 
 
-def fault_at(
-    loc: Loc, slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()
-) -> ValidationError:
+def fault_at(loc: Loc, slug: str, message: str, help: str = "") -> ValidationError:
     """Return the same fault at ``loc`` below the value under validation."""
-    return together([InitErrorDetails(type=fault(slug, message, help, notes), loc=loc, input=None)])
+    return together([InitErrorDetails(type=fault(slug, message, help), loc=loc, input=None)])
 
 
 def unit_fault(error: QuantityError) -> PydanticCustomError:

@@ -15,7 +15,7 @@ LEAST_SHARE = 0.02  # the same for the one frame that shows least of the outline
 PATH_SAMPLES = 240  # of a path
 
 
-class Free(NamedTuple):
+class UncoveredShare(NamedTuple):
     """Which share of a target's outline is not covered, from 0 to 1.
 
     mean, least, first, last : mean over the frames, least of all frames, first frame, last frame
@@ -29,14 +29,16 @@ class Free(NamedTuple):
     sighted: float = 1.0
 
 
-def free_of(covered: Array) -> Free:
+def free_of(covered: Array) -> UncoveredShare:
     """Return what is free in one or more frames; covered : covered share of the outline by frame, (M,)."""
     free = 1.0 - covered
     in_sight = (free >= HALF_SHARE).mean()
-    return Free(float(free.mean()), float(free.min()), float(free[0]), float(free[-1]), float(in_sight))
+    return UncoveredShare(
+        float(free.mean()), float(free.min()), float(free[0]), float(free[-1]), float(in_sight)
+    )
 
 
-def lost(placed: PlacedShot, before: Free, after: Free) -> float:
+def lost(placed: PlacedShot, before: UncoveredShare, after: UncoveredShare) -> float:
     """Return by how much a target is less free than before in what is promised or reported; 0 if not.
 
     If the target may be hidden, only promises count. Otherwise two more values count: the mean, and whether
@@ -50,7 +52,7 @@ def lost(placed: PlacedShot, before: Free, after: Free) -> float:
     return max(*losses, broken(placed, before, after))
 
 
-def broken(placed: PlacedShot, before: Free, after: Free) -> float:
+def broken(placed: PlacedShot, before: UncoveredShare, after: UncoveredShare) -> float:
     """Return by how much a promise that was kept is broken, or is broken further; 0 for none."""
     promise, losses = placed.shot.promise, [0.0]
     if promise.visible is not None:
@@ -74,10 +76,14 @@ def lost_on_path(subject: ShotContext, camera: Piecewise) -> float:
     Moving occluders do not count: the time of each place is not known yet.
     """
     after = _on_path(subject, camera)
-    return 0.0 if after == Free() else lost(subject.placed, _on_path(subject, subject.leg.curve), after)
+    return (
+        0.0
+        if after == UncoveredShare()
+        else lost(subject.placed, _on_path(subject, subject.leg.curve), after)
+    )
 
 
-def _on_path(subject: ShotContext, camera: Piecewise) -> Free:
+def _on_path(subject: ShotContext, camera: Piecewise) -> UncoveredShare:
     mission, covered = subject.mission, [np.zeros(0)]
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
     s = np.linspace(camera.start, camera.end, PATH_SAMPLES)
@@ -86,4 +92,4 @@ def _on_path(subject: ShotContext, camera: Piecewise) -> Free:
         eyes = camera(inside)[:, :3]
         covered.append(coverage(standing, (), span.target, eyes, np.zeros(len(inside))).share)
     shares = np.concatenate(covered)
-    return free_of(shares) if len(shares) else Free()
+    return free_of(shares) if len(shares) else UncoveredShare()

@@ -95,7 +95,7 @@ def _refine(
     walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, references, walls, margins)
     given = _given(nodes, references, following)
-    done: list[_Tried] = []
+    done: list[_RefinementRound] = []
     for rounds in range(1, MOST_ROUNDS + 1):
         attempt = by_one_of(solvers, partial(solve, following))
         tried = _tried(subject, condition, nodes, following, attempt, given)
@@ -126,7 +126,7 @@ def _given(nodes: Stages, references: References, task: Problem) -> Given:
     return Given(nodes.s[at], task.states[at][:, [YAW, PITCH]])
 
 
-class _Tried(NamedTuple):
+class _RefinementRound(NamedTuple):
     """One round: its camera or None, the remaining errors, its problem and the solver's attempt."""
 
     camera: Piecewise | None
@@ -142,8 +142,8 @@ def _tried(
     task: Problem,
     attempt: Attempt,
     given: Given,
-) -> _Tried:
-    nothing = _Tried(None, Check(inf, inf, inf, inf), task, attempt)
+) -> _RefinementRound:
+    nothing = _RefinementRound(None, Check(inf, inf, inf, inf), task, attempt)
     if attempt.solution.status != "solved":
         return nothing
     try:
@@ -158,8 +158,8 @@ def _tried(
 
 
 def _leveled(
-    subject: ShotContext, condition: AimCondition, tried: _Tried, to: tuple[Stages, Given]
-) -> _Tried:
+    subject: ShotContext, condition: AimCondition, tried: _RefinementRound, to: tuple[Stages, Given]
+) -> _RefinementRound:
     """Return a round whose camera crops nothing beside keyframes, unless it is worse elsewhere."""
     nodes, given = to
     try:
@@ -170,7 +170,9 @@ def _leveled(
     return tried if check > tried.check else tried._replace(camera=turned, check=check)
 
 
-def _result(subject: ShotContext, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
+def _result(
+    subject: ShotContext, nodes: Stages, done: list[_RefinementRound], best: _RefinementRound
+) -> Refined:
     """Return the best camera if it is clear, else the state of the last round."""
     leg = subject.leg
     assert leg.shot is not None

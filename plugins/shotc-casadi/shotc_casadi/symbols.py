@@ -20,7 +20,6 @@ from shotc_casadi.conditions import Visibility
 from shotc_casadi.extents import EXTENT_PARAMETERS, Extent, rounded
 
 STATES, INPUTS = 16, 6
-WIDTH = STATES + INPUTS
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 YAW, YAW_RATE, YAW_ACCELERATION, PITCH, PITCH_RATE, PITCH_ACCELERATION, TIME = range(9, 16)
 JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5

@@ -15,16 +15,16 @@ from shotc_casadi.clock.angles import turning
 from shotc_casadi.clock.problem import USUAL_STAGES, Use, breaks_of, guess, problem
 from shotc_casadi.clock.proof import astray, gap_in
 from shotc_casadi.clock.references import ClockSubject, motion, references_at, steepest
-from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
+from shotc_casadi.clock.refiner import KEPT, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, ClockRefined, refine_clock
 from shotc_casadi.solving import Solution
 from shotc_casadi.timeout import TimedOut
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg
 from shotc.plugin_api.refiner import NO_HALF_SPACES, ideal_places, restrict, surroundings
+from tests.support.refined_clocks import refine_clocks
 
 pytestmark = pytest.mark.slow
 
@@ -249,7 +249,7 @@ def test_ipopt_is_the_fallback_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -
 
     true = program.solve
     monkeypatch.setattr("shotc_casadi.clock.rounds.solve", given_up)
-    path, told = refine_clocks(of.path, PassContext(), "ours")
+    path, told = refine_clocks(of.path, "ours")
     assert [d.code for d in told] == ["R013"]
     assert subject_of(path, "s").leg is not of.leg
     assert dict(path.stats)["s.refine_solver"] == "ipopt"
@@ -263,7 +263,7 @@ def test_a_shot_that_may_be_flown_as_refined_is_refined_once(monkeypatch: pytest
         return refine_clock(what, **given)
 
     monkeypatch.setattr("shotc_casadi.clock.refiner.refine_clock", counted)
-    path, _ = refine_clocks(of.path, PassContext(), "ours")
+    path, _ = refine_clocks(of.path, "ours")
     assert subject_of(path, "s").leg is not of.leg
     assert asked == [True]
 
@@ -275,7 +275,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
         raise TimedOut
 
     monkeypatch.setattr(solving, "within", late)
-    path, told = refine_clocks(of.path, PassContext(), "ours")
+    path, told = refine_clocks(of.path, "ours")
     assert [d.code for d in told] == ["R011"]
     assert "30 s of processor time without an end" in told[0].message
     assert "in shot `s`" in told[0].message
@@ -311,7 +311,7 @@ def test_numbers_that_are_none_are_told() -> None:
 def test_a_camera_that_follows_less_well_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(compiled(FLYBY))
     monkeypatch.setattr("shotc_casadi.clock.rounds.astray", lambda _, leg: 0.0 if leg is of.leg else 0.1)
-    path, (told,) = refine_clocks(of.path, PassContext(), "ours")
+    path, (told,) = refine_clocks(of.path, "ours")
     assert told.code == "R014"
     assert "its guide films" in told.message
     assert subject_of(path, "s").leg is of.leg

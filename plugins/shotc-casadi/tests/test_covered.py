@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from shotc_casadi import conditions, refiner, rounds
-from shotc_casadi.covered import Free, broken, free_of, lost
+from shotc_casadi.covered import UncoveredShare, broken, free_of, lost
 from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.proof import checked
 from shotc_casadi.references import ShotContext
@@ -52,33 +52,33 @@ def lower(subject: ShotContext, metres: float) -> Piecewise:
 
 
 def test_shares_of_frames_are_what_is_left_free():
-    assert free_of(np.array([0.0, 0.25, 0.75, 0.5])) == Free(0.625, 0.25, 1.0, 0.5, 0.75)
+    assert free_of(np.array([0.0, 0.25, 0.75, 0.5])) == UncoveredShare(0.625, 0.25, 1.0, 0.5, 0.75)
 
 
 @pytest.mark.parametrize(
     ("after", "promise", "less"),
     [
-        (Free(), {}, False),
-        (Free(mean=0.9, least=0.6), {}, True),
-        (Free(mean=0.998, least=0.6), {}, False),
-        (Free(mean=0.998, least=0.4), {}, True),
-        (Free(mean=0.998, least=0.6), {"visible": 0.7}, True),
-        (Free(mean=0.998, least=0.4), {"visible": 0.3}, False),
-        (Free(mean=0.5, first=0.0, least=0.0), {"reveal": (0.0, 1.0)}, False),
-        (Free(last=0.9), {"reveal": (0.0, 1.0)}, True),
+        (UncoveredShare(), {}, False),
+        (UncoveredShare(mean=0.9, least=0.6), {}, True),
+        (UncoveredShare(mean=0.998, least=0.6), {}, False),
+        (UncoveredShare(mean=0.998, least=0.4), {}, True),
+        (UncoveredShare(mean=0.998, least=0.6), {"visible": 0.7}, True),
+        (UncoveredShare(mean=0.998, least=0.4), {"visible": 0.3}, False),
+        (UncoveredShare(mean=0.5, first=0.0, least=0.0), {"reveal": (0.0, 1.0)}, False),
+        (UncoveredShare(last=0.9), {"reveal": (0.0, 1.0)}, True),
     ],
 )
 def test_what_is_promised_and_what_is_told_counts(after, promise, less):
-    before = Free(first=0.0) if "reveal" in promise else Free()
+    before = UncoveredShare(first=0.0) if "reveal" in promise else UncoveredShare()
     assert (lost(film(**promise), before, after) > 0.0) is less
 
 
 def test_what_is_broken_already_is_broken_no_further():
     placed = film(visible=0.9)
-    assert broken(placed, Free(least=0.3), Free(least=0.3)) <= 0.0
-    assert broken(placed, Free(least=0.3), Free(least=0.2)) == pytest.approx(0.08)
+    assert broken(placed, UncoveredShare(least=0.3), UncoveredShare(least=0.3)) <= 0.0
+    assert broken(placed, UncoveredShare(least=0.3), UncoveredShare(least=0.2)) == pytest.approx(0.08)
     meant = placed._replace(shot=replace(placed.shot, allow=(HIDDEN,), promise=Promise()))
-    assert lost(meant, Free(), Free(0.0, 0.0, 0.0, 0.0, 0.0)) == 0.0
+    assert lost(meant, UncoveredShare(), UncoveredShare(0.0, 0.0, 0.0, 0.0, 0.0)) == 0.0
 
 
 def test_a_camera_behind_a_tree_is_found_to_show_less(path):

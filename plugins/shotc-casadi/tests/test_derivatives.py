@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from shotc_casadi.clock import symbols as clock
 from shotc_casadi.derivatives import derived, differentiated, laid_out
-from shotc_casadi.symbols import LENS, STATES, WIDTH, size, stage
+from shotc_casadi.symbols import INPUTS, LENS, STATES, size, stage
 
 N = 3
 KINDS = [
@@ -119,7 +119,7 @@ def test_only_what_may_be_nonzero_is_laid_out():
         derived("silhouette", 2),
         "fatrop",
         N,
-        ca.MX.sym("x", N * WIDTH + STATES),
+        ca.MX.sym("x", N * (STATES + INPUTS) + STATES),
         ca.MX.sym("p", (N + 1) * size(2)),
     )
     for name, out in (("nlp_jac_g", 1), ("nlp_hess_l", 1)):

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from shotc_casadi.clock.problem import breaks_of
 from shotc_casadi.clock.references import ClockSubject, references_at
-from shotc_casadi.clock.refiner import SHOWS_LESS, refine_clocks, subject_of
+from shotc_casadi.clock.refiner import SHOWS_LESS, subject_of
 from shotc_casadi.clock.rounds import refine_clock
 from shotc_casadi.clock.several import WHOLE
 from shotc_casadi.clock.shown import held_whole, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
-from shotc.ir.passes import PassContext
 from shotc.ir.preference import MOST_MOVED
 from shotc.plugin_api.refiner import ideal_places
+from tests.support.refined_clocks import refine_clocks
 
 pytestmark = pytest.mark.slow
 
@@ -101,7 +101,7 @@ def test_a_subject_that_hardly_fits_is_kept_whole_by_going_back_a_little() -> No
 def test_what_crops_its_subject_more_than_the_guide_is_not_flown(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(BESIDE, "solve-path-qp")
     monkeypatch.setattr("shotc_casadi.clock.refiner.held_whole", lambda *_, **__: None)
-    path, (told,) = refine_clocks(of.path, PassContext(), "ours")
+    path, (told,) = refine_clocks(of.path, "ours")
     assert told.code == "R014"
     assert SHOWS_LESS in told.message
     assert subject_of(path, "s").leg is of.leg

@@ -10,14 +10,14 @@ import pytest
 from shotc_casadi.clock import symbols
 from shotc_casadi.clock.occluders import Occluder, enclosing, occluders_of
 from shotc_casadi.clock.references import ClockSubject
-from shotc_casadi.clock.refiner import refine_clocks, subject_of
+from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import refine_clock
 from shotc_casadi.clock.shown import past_occluders, shown
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Prism, box
-from shotc.ir.passes import PassContext
 from tests.support.few import few
+from tests.support.refined_clocks import refine_clocks
 
 MISSION = """\
 shotc: 1
@@ -213,7 +213,7 @@ def test_a_promise_goes_before_the_line_of_sight() -> None:
     plain = refine_clock(of)
     assert past_occluders(of, plain) is None
     assert past_occluders(subject(mission(LATERAL, **PASSING)), plain) is not None
-    path, told = refine_clocks(of.path, PassContext(), "ours")
+    path, told = refine_clocks(of.path, "ours")
     assert told == ()
     assert shown(of, subject_of(path, "s").leg).largest <= 0.3005
 

@@ -10,7 +10,7 @@ from shotc_casadi.clock import refiner, shown
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.refiner import refine_one, subject_of
 from shotc_casadi.clock.shown import SubjectVisibility, as_whole, keeps_promises
-from shotc_casadi.covered import Free
+from shotc_casadi.covered import UncoveredShare
 
 from shotc.api import PlanOptions, compile_source
 from shotc.plugin_api import PathIR
@@ -70,8 +70,8 @@ def test_a_part_that_is_hidden_is_no_reason_to_break_a_promise(
 ) -> None:
     of = subject_of(path("prefer", promise), "s")
     seen = {
-        "before": SubjectVisibility(Free(0.67, 0.66, 0.67, 0.69, 1.0), 1.0, 0.3, 0.3, 0.0),
-        "after": SubjectVisibility(Free(0.61, 0.49, 0.67, 0.65, 0.98), 0.0, 0.29, 0.3, 0.0),
+        "before": SubjectVisibility(UncoveredShare(0.67, 0.66, 0.67, 0.69, 1.0), 1.0, 0.3, 0.3, 0.0),
+        "after": SubjectVisibility(UncoveredShare(0.61, 0.49, 0.67, 0.65, 0.98), 0.0, 0.29, 0.3, 0.0),
     }
     legs = {name: _copy(of.leg) for name in seen}
     monkeypatch.setattr(

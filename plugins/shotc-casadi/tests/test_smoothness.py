@@ -124,7 +124,7 @@ def flat(names: dict[str, int], values: dict[str, Any]) -> Array:
 
 
 def _on_path(kind: PathKind, planes: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:
-    z = np.zeros(path.WIDTH)
+    z = np.zeros(path.STATES + path.INPUTS)
     z[path.POSITION], z[path.VELOCITY], z[path.ACCELERATION] = scene.eye, scene.motion[0], scene.motion[1]
     z[path.YAW], z[path.PITCH] = scene.aim
     z[path.STATES : path.STATES + 3], z[path.STATES + path.LENGTH] = scene.motion[2], 0.3

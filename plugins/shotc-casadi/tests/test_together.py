@@ -12,7 +12,7 @@ import pytest
 from shotc_casadi.clock import picture, program
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.references import ClockSubject, references_at
-from shotc_casadi.clock.refiner import KEPT, refine_clocks, subject_of
+from shotc_casadi.clock.refiner import KEPT, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, flown_cost
 from shotc_casadi.clock.several import pictured
 from shotc_casadi.clock.shown import no_less, shown
@@ -21,10 +21,10 @@ from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
 from shotc.geom.shapes import CylinderShape
 from shotc.ir.framed_scene import lens_of
-from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg, PathIR
 from shotc.plugin_api.refiner import restrict, surroundings
 from tests.experiments.faces import MISSION, drawn
+from tests.support.refined_clocks import refine_clocks
 
 pytestmark = pytest.mark.slow
 
@@ -242,7 +242,7 @@ def test_where_the_guide_is_better_by_its_own_cost_it_is_flown(monkeypatch: pyte
     monkeypatch.setattr(
         "shotc_casadi.clock.rounds.flown_cost", lambda _, __, leg: 0.0 if leg is of.leg else 1.0
     )
-    path, (told,) = refine_clocks(of.path, PassContext(), "ours")
+    path, (told,) = refine_clocks(of.path, "ours")
     assert told.code == "R014"
     assert subject_of(path, "s").leg is of.leg
     assert dict(path.stats)["s.refine_status"] == KEPT
@@ -257,7 +257,7 @@ def test_a_motion_that_crops_a_subject_is_not_taken(monkeypatch: pytest.MonkeyPa
         return found if leg is of.leg or which == 0 else found._replace(cropped=0.1)
 
     monkeypatch.setattr("shotc_casadi.clock.shown.shown", cropped)
-    path, _ = refine_clocks(of.path, PassContext(), "ours")
+    path, _ = refine_clocks(of.path, "ours")
     assert subject_of(path, "s").leg is of.leg
 
 

@@ -35,7 +35,7 @@ MOST_STEPS = 2000  # samples of one leg
 
 
 @dataclass(slots=True)
-class _Pilot:
+class _VehicleState:
     """The vehicle's state while items are run; angles in rad, NaN until the first command."""
 
     drone: Drone
@@ -61,7 +61,7 @@ class _Pilot:
 
 def refly(items: list[MissionItem], geo: Geo, drone: Drone) -> ReflownSamples:
     """Return the flight of items that were read from a file, with this drone's autopilot and gimbal."""
-    pilot = _Pilot(drone, geo, DEFAULTS[drone.autopilot])
+    pilot = _VehicleState(drone, geo, DEFAULTS[drone.autopilot])
     for item in items:
         _RUN[item.command](pilot, item.params)
     table = np.concatenate(pilot.rows) if pilot.rows else np.zeros((0, 10))
@@ -81,13 +81,13 @@ def _number(value: float | None) -> float:
     return nan if value is None else value
 
 
-def _take_off(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _take_off(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.position = _point(pilot, params)
     if pilot.drone.autopilot == "px4":
         pilot.yaw = pilot.yaw_goal = yaw_of(radians(_number(params[3])))
 
 
-def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _waypoint(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     if pilot.drone.autopilot == "px4":
         pilot.yaw_goal = yaw_of(radians(_number(params[3])))
     target = _point(pilot, params)
@@ -108,7 +108,7 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
         _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE_M_S)
 
 
-def _log(pilot: _Pilot, position: Array, time: Array, progress: Array) -> None:
+def _log(pilot: _VehicleState, position: Array, time: Array, progress: Array) -> None:
     body = _slew(pilot.yaw, pilot.yaw_goal, pilot.turn_rate, time)
     if pilot.roi is not None:
         if turns_body(pilot.drone):
@@ -137,12 +137,12 @@ def _slew(now: float, goal: float, rate: float, time: Array) -> Array:
     return np.asarray(now + np.clip(turn, -rate * time, rate * time))
 
 
-def _condition_yaw(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _condition_yaw(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.yaw_goal = yaw_of(radians(_number(params[0])))
     pilot.turn_rate = radians(_number(params[1]))
 
 
-def _change_speed(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _change_speed(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     kind, value = _number(params[0]), _number(params[1])
     if kind == mav.SPEED_CLIMB:
         pilot.speeds = replace(pilot.speeds, climb=value)
@@ -152,45 +152,45 @@ def _change_speed(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
         pilot.speeds = replace(pilot.speeds, ground=value)
 
 
-def _pitch_yaw(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _pitch_yaw(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.pitch_goal = radians(_number(params[0]))
     pilot.earth = bool(int(_number(params[4])) & mav.YAW_LOCK)
     yaw = radians(_number(params[1]))
     pilot.pan_goal = yaw_of(yaw) if pilot.earth else -yaw
 
 
-def _mount(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _mount(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.pitch_goal = radians(_number(params[0]))
     pilot.pan_goal = -radians(_number(params[2]))
 
 
-def _zoom(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _zoom(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     assert pilot.drone.lens is not None
     pilot.hfov_goal = DIALECTS[pilot.drone.autopilot].zoomed(pilot.drone.lens, _number(params[1]))
 
 
-def _look_at(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _look_at(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.roi = _point(pilot, params)
 
 
-def _look_away(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _look_away(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.roi = None
 
 
-def _record(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _record(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     pilot.part += 1
 
 
-def _nothing(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+def _nothing(pilot: _VehicleState, params: tuple[float | None, ...]) -> None:
     """Ignore an item that changes no state of this model."""
 
 
-def _point(pilot: _Pilot, params: tuple[float | None, ...]) -> Array:
+def _point(pilot: _VehicleState, params: tuple[float | None, ...]) -> Array:
     lat, lon, alt = (_number(p) for p in params[4:7])
     return pilot.geo.point(GeoPosition(lat, lon, alt))
 
 
-_RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {
+_RUN: dict[int, Callable[[_VehicleState, tuple[float | None, ...]], None]] = {
     mav.TAKEOFF: _take_off,
     mav.WAYPOINT: _waypoint,
     mav.LAND: _nothing,

@@ -72,7 +72,7 @@ EMITTER = Gltf()
 
 def written(scene: FilmSet) -> bytes:
     """Return a scene as the bytes of a GLB file."""
-    file = _File(scene.paints)
+    file = _Document(scene.paints)
     for body in scene.bodies:
         _body(file, body)
     for camera in scene.cameras:
@@ -81,7 +81,7 @@ def written(scene: FilmSet) -> bytes:
 
 
 @dataclass(slots=True)
-class _File:
+class _Document:
     """A glTF document under construction: its lists, and the bytes behind its accessors."""
 
     paints: tuple[Paint, ...]
@@ -158,7 +158,7 @@ def _material(paint: Paint) -> dict[str, Any]:
     return {"name": paint.name, "pbrMetallicRoughness": surface, "doubleSided": True, **blend}
 
 
-def _body(file: _File, body: SceneBody) -> None:
+def _body(file: _Document, body: SceneBody) -> None:
     node: dict[str, Any] = {"name": body.name, "mesh": len(file.meshes)}
     file.meshes.append({"name": body.name, "primitives": _primitives(file, body)})
     if body.motion is not None:
@@ -173,7 +173,7 @@ def _body(file: _File, body: SceneBody) -> None:
     file.nodes.append(node)
 
 
-def _primitives(file: _File, body: SceneBody) -> list[dict[str, Any]]:
+def _primitives(file: _Document, body: SceneBody) -> list[dict[str, Any]]:
     material = file.paints.index(body.paint)
     points = _south(body.points)
     if body.kind == "lines":
@@ -192,7 +192,7 @@ def _primitives(file: _File, body: SceneBody) -> list[dict[str, Any]]:
     return [{**primitive, "mode": TRIANGLES if body.kind == "mesh" else POINTS, "material": material}]
 
 
-def _camera(file: _File, camera: CameraSamples) -> None:
+def _camera(file: _Document, camera: CameraSamples) -> None:
     node, places = len(file.nodes), _south(camera.places)
     turns = upright(camera.yaw, camera.pitch)
     index = len(file.cameras)

@@ -83,7 +83,7 @@ class Chooser:
         """Return the stations of the route."""
         stay = None if self.lens is None else self._stay
         needed, gaps = stations_of(self.track, self.distances, stay, self.photos)
-        parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
+        parts = [_SampledGap(gap, self._seeds(gap)) for gap in gaps]
         for _ in range(MOST_ROUNDS):
             stations, owners = _joined(needed, parts)
             scores = self._scores(stations, owners, parts)
@@ -201,7 +201,7 @@ class Chooser:
         position = self.track.poses.position
         return bool(np.linalg.norm(position[b] - position[a]) >= SHORTEST_LEG_M)
 
-    def _scores(self, stations: list[Station], owners: Index, parts: list[_Part]) -> list[Array]:
+    def _scores(self, stations: list[Station], owners: Index, parts: list[_SampledGap]) -> list[Array]:
         """Return the error of each leg of each part over its bound; 1 is at the bound.
 
         If a part exceeds only the bound of its mean, all of its legs do, in the order of their largest
@@ -294,7 +294,7 @@ class Chooser:
 
 
 @dataclass(slots=True)
-class _Part:
+class _SampledGap:
     """A gap with the samples chosen in it, in ascending order."""
 
     gap: StationInterval
@@ -317,7 +317,7 @@ def chooser_of(
     return Chooser(track, drone, obstacles, shapes, metres, planned, halts, lens)
 
 
-def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], Index]:
+def _joined(needed: list[Station], parts: list[_SampledGap]) -> tuple[list[Station], Index]:
     """Return all stations in order, and the part of each leg."""
     stations, owners = [needed[0]], []
     for k, part in enumerate(parts):

@@ -72,7 +72,7 @@ class Error:
         return max((each.edge for each in self.shots), default=0.0)
 
 
-class _Met(NamedTuple):
+class _MatchedPoses(NamedTuple):
     """Re-flown poses matched to planned ones.
 
     time : mission times of the planned poses, seconds
@@ -112,7 +112,9 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, 
     return Error(position, heading, worst.worst, worst.shot, worst.time, filmed, planned, tuple(shots))
 
 
-def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Poses, met: _Met) -> ShotError:
+def _shot_error(
+    mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Poses, met: _MatchedPoses
+) -> ShotError:
     time = met.time
     shift = _shift(mission, flight, time, plan, met.poses, mission.drone(flight.drone))
     index = int(shift.argmax())
@@ -138,7 +140,7 @@ def nearest_miss(obstacles: tuple[Obstacle, ...], flown: ReflownSamples) -> tupl
     return (name, depth) if depth > 0 else ("", 0.0)
 
 
-class _Part(NamedTuple):
+class _Recording(NamedTuple):
     """What is flown between a start and a stop of recording; number : as in the re-flight; shot : None for a
     transit.
     """
@@ -149,9 +151,9 @@ class _Part(NamedTuple):
     end: float
 
 
-def _parts(flight: DroneTrajectory) -> list[_Part]:
+def _parts(flight: DroneTrajectory) -> list[_Recording]:
     """Return the parts of a flight, between starts and stops of recording."""
-    parts: list[_Part] = []
+    parts: list[_Recording] = []
     number, shot = 0, None
     for phase in flight.phases:
         if phase.name in UPRIGHT:
@@ -162,7 +164,7 @@ def _parts(flight: DroneTrajectory) -> list[_Part]:
             parts[-1] = parts[-1]._replace(number=number, end=phase.end)
             continue
         shot = phase.shot
-        parts.append(_Part(number, phase.shot, phase.start, phase.end))
+        parts.append(_Recording(number, phase.shot, phase.start, phase.end))
     return parts
 
 
@@ -170,7 +172,7 @@ def _frames(start: float, end: float, rate: float) -> Array:
     return np.arange(ceil(start * rate - 1e-6), floor(end * rate + 1e-6) + 1) / rate
 
 
-def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bool_]) -> _Met:
+def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bool_]) -> _MatchedPoses:
     """Return the poses of a re-flight nearest to the planned ones, in order of progress."""
     position = flown.position[inside]
     progress = flown.progress[inside] - flown.progress[inside][0]
@@ -188,7 +190,7 @@ def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bo
     hfov = mix(flown.hfov[inside])
     hfov = np.where(np.isnan(hfov), plan.hfov, hfov)
     poses = Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), hfov)
-    return _Met(time, poses, mix(flown.elapsed[inside]))
+    return _MatchedPoses(time, poses, mix(flown.elapsed[inside]))
 
 
 def _progress(position: Array, time: Array) -> Array:

@@ -108,7 +108,7 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Written:
+class _WrittenFiles:
     """The files of a drone, the route read back from them, and samples of its legs for each curve model.
 
     photographed : shots of which the files take photos
@@ -148,7 +148,7 @@ class _Job:
             chooser = replace(chooser, photos=_photos(mission, track))
         return _Job(mission, flight, drone, form, tie(mission.origin, drone.home), track, chooser, obstacles)
 
-    def written(self) -> _Written:
+    def written(self) -> _WrittenFiles:
         """Return the files: points are chosen, written and read back."""
         stations = self.chooser.stations()
         points = waypoints_of(_parted(self.chooser.route(stations)), self.geo)
@@ -166,7 +166,7 @@ class _Job:
         )
         route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
         legs = tuple(s.samples(route, FINE_SAMPLES) for s in self.form.shapes)
-        return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
+        return _WrittenFiles(artifacts, route, legs, frozenset(self.chooser.photos))
 
     def _watched(self, stations: list[Station]) -> list[GeoPosition | None]:
         """Return for each station the standing target that the camera looks straight at during the whole
@@ -184,7 +184,7 @@ class _Job:
                     places[i] = place
         return places
 
-    def emission(self, written: _Written) -> Emission:
+    def emission(self, written: _WrittenFiles) -> Emission:
         """Return the files with notes and warnings; no files if they come too near to an obstacle."""
         not_carried = report.lens(self.mission, self.flight) if self.chooser.lens is None else []
         faults = [*self._broken(written), *(d for d in not_carried if d.code == report.PROMISED)]
@@ -226,7 +226,7 @@ class _Job:
             shots=shots,
         )
 
-    def _broken(self, written: _Written) -> list[Diagnostic]:
+    def _broken(self, written: _WrittenFiles) -> list[Diagnostic]:
         """Return a fault for each obstacle that a re-flight comes nearer to than the plan, under the worst
         curve.
         """

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.camera import View
+from shotc.geom.framing import Cameras
 from shotc.ir.bodies import moved
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -111,18 +111,10 @@ def project(poses: Poses, subject: Array, drone: Drone) -> Array:
     """Return the screen position (u, v) of points (n, 3) seen from poses (n,), shape (n, 2); NaN behind the
     camera.
     """
-    half = np.tan(poses.hfov / 2)
-    camera = View(
-        np.cos(poses.cam_yaw),
-        np.sin(poses.cam_yaw),
-        np.cos(poses.cam_pitch),
-        np.sin(poses.cam_pitch),
-        half,
-        half / drone.aspect,
-    )
+    camera = Cameras(poses.position, poses.cam_yaw, poses.cam_pitch, poses.hfov, drone.aspect).view
     right, down, forward = camera.to_camera(tuple((subject - poses.position).T))
-    depth = np.where(forward > 0, forward, np.nan)
-    return np.stack([right / (depth * half), -down * drone.aspect / (depth * half)], axis=1)
+    depth = np.where(forward > 0, forward, np.nan) * camera.half_width
+    return np.stack([right / depth, -down * drone.aspect / depth], axis=1)
 
 
 def select(poses: Poses, part: NDArray[np.bool_] | NDArray[np.int64] | slice) -> Poses:

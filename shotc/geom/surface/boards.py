@@ -57,15 +57,6 @@ def billboards(eye: Array, centre: Array, width: Array | float, height: Array | 
     return Billboards(eye, centre - 0.5 * (right + up), right, up)
 
 
-def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return the least rectangles around the outlines of upright cylinders at centres (F, 3) from afar."""
-    away = centre - eye
-    far = np.maximum(np.linalg.norm(away, axis=1), _NO_LENGTH)
-    upright = np.hypot(away[:, 0], away[:, 1]) / far
-    shown = height * upright + 2.0 * radius * np.abs(away[:, 2]) / far
-    return billboards(eye, centre, 2.0 * radius, shown)
-
-
 def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
     """Return upright rectangles in front of upright cylinders at centres (F, 3), facing eyes (F, 3).
 

@@ -58,7 +58,7 @@ class FlightCommand(NamedTuple):
 
 
 @dataclass(slots=True)
-class _Run:
+class _ItemReader:
     """The points read so far, and the values in force."""
 
     pace: Pace = field(default_factory=Pace)
@@ -131,7 +131,7 @@ def _simple(item: Any, name: str, node: Node) -> FlightCommand:
 
 
 def _flown(whole: Node, items: Sequence[FlightCommand], autopilot: Literal["px4", "ardupilot"]) -> Waypoints:
-    run = _Run()
+    run = _ItemReader()
     for item in items:
         if run.landing is not None or run.ending:
             break
@@ -145,7 +145,7 @@ def _flown(whole: Node, items: Sequence[FlightCommand], autopilot: Literal["px4"
     return checked(Waypoints(whole, "mavlink", points, words, autopilot, run.climb, run.landing, run.ending))
 
 
-def _take(run: _Run, item: FlightCommand) -> None:
+def _take(run: _ItemReader, item: FlightCommand) -> None:
     """Apply one item."""
     command, p = item.command, item.params
     if command in (WAYPOINT, SPLINE, LOITER_TIME):
@@ -164,7 +164,7 @@ def _take(run: _Run, item: FlightCommand) -> None:
         _do(run, item)
 
 
-def _do(run: _Run, item: FlightCommand) -> None:
+def _do(run: _ItemReader, item: FlightCommand) -> None:
     """Apply an item that is not a place to fly to."""
     command, p = item.command, item.params
     if command in ASTRAY or command <= LAST_NAVIGATION_COMMAND:
@@ -176,7 +176,7 @@ def _do(run: _Run, item: FlightCommand) -> None:
         run.pitches = (*run.pitches, p[0])
 
 
-def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
+def _landing(run: _ItemReader, item: FlightCommand) -> FlightPoint | None:
     """Return the landing point: the item's place, or the last point if it has none."""
     p = item.params
     if p[4] is None or p[5] is None or (p[4], p[5]) == (0.0, 0.0):
@@ -184,7 +184,7 @@ def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
     return _point(item._replace(params=(*p[:6], p[6] or 0.0)), straight=True)
 
 
-def _pass(run: _Run, point: FlightPoint) -> None:
+def _pass(run: _ItemReader, point: FlightPoint) -> None:
     """Add a point. The speeds in force become the pace of the point before it."""
     if run.points:
         pace = run.pace if run.pace != Pace() else None
@@ -193,11 +193,11 @@ def _pass(run: _Run, point: FlightPoint) -> None:
     run.points.append(point)
 
 
-def _stayed(point: FlightPoint, run: _Run) -> FlightPoint:
+def _stayed(point: FlightPoint, run: _ItemReader) -> FlightPoint:
     return point._replace(stay=run.stay, stops=run.stay > 0.0, pitches=run.pitches)
 
 
-def _speed(run: _Run, item: FlightCommand) -> None:
+def _speed(run: _ItemReader, item: FlightCommand) -> None:
     kind, value = item.params[0] or 0.0, item.params[1]
     if value is None or value <= 0.0:
         return

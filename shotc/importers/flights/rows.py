@@ -25,7 +25,6 @@ VELOCITY = ("vx_m_s", "vy_m_s", "vz_m_s")
 ACCELERATION = ("ax_m_s2", "ay_m_s2", "az_m_s2")
 BODY = ("body_yaw_rad",)
 CAMERA = ("cam_yaw_rad", "cam_pitch_rad", "hfov_rad")
-RATES = ("cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s")
 WANTED = (TIME, DRONE, *PLACE, *VELOCITY)
 EXAMPLE = ",".join(WANTED)
 MOST_ROWS = 5_000_000

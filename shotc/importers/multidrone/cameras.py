@@ -130,7 +130,7 @@ def _course(places: list[Place], i: int) -> float:
     return atan2(y, x)
 
 
-class _Stand(NamedTuple):
+class _CameraPlace(NamedTuple):
     """A place as East and North in metres, as text at some heights, and comments."""
 
     place: Place
@@ -138,14 +138,14 @@ class _Stand(NamedTuple):
     said: Said
 
 
-def _stand(task: RoleTask, *altitudes: float) -> _Stand:
+def _stand(task: RoleTask, *altitudes: float) -> _CameraPlace:
     """Return the place of a standing camera: the formation's origin, or beside a target too near to it."""
     x, y = task.course.at(task.start)
     origin = task.action.origin
     if origin is not None:
         place = task.frame.place(origin)
         if hypot(place[0] - x, place[1] - y) >= NEAREST_M:
-            return _Stand(place, [task.frame.written(origin, z) for z in altitudes], ())
+            return _CameraPlace(place, [task.frame.written(origin, z) for z in altitudes], ())
     message = "the camera would stand where its target begins"
     said = task.notes.assume(
         task.action.node.first("originOfFormation") or task.action.node,
@@ -153,4 +153,4 @@ def _stand(task: RoleTask, *altitudes: float) -> _Stand:
         f"{BESIDE_M:g} m to the East of there",
     )
     place = (x + BESIDE_M, y)
-    return _Stand(place, [written(place, z) for z in altitudes], (said,))
+    return _CameraPlace(place, [written(place, z) for z in altitudes], (said,))

@@ -63,7 +63,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
 
     The course is None if an action films no target, or gives no position for it.
     """
-    runs: list[_Run] = []
+    runs: list[_CourseBuilder] = []
     indices: list[int | None] = []
     start = LEAD_S
     for action in sequence.actions:
@@ -83,7 +83,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
             places = [frame.place(p) for p in points]
             clock = _clock(action, points, places, follows, said, notes)
             if not runs or not runs[-1].takes_up(clock[0], places[0]):
-                runs.append(_Run([], [], [], []))
+                runs.append(_CourseBuilder([], [], [], []))
             runs[-1].add(clock, places, points, said)
             indices.append(len(runs) - 1)
         start += action.duration
@@ -91,7 +91,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
     return tuple(None if k is None else courses[k] for k in indices)
 
 
-class _Run(NamedTuple):
+class _CourseBuilder(NamedTuple):
     """A course under construction."""
 
     times: list[float]

@@ -76,7 +76,7 @@ class Houses(NamedTuple):
     far: tuple[Footprint, ...] = ()
 
 
-class _Shape(NamedTuple):
+class _RingFootprint(NamedTuple):
     """A footprint with a valid ring; low, high : of its bounding box.
 
     outline : that a part replaces
@@ -101,7 +101,7 @@ def houses_of(
     farthest : from the origin of W, metres; height : of buildings without one in the file, or None
     """
     built = _built(footprints)
-    shapes: list[_Shape] = []
+    shapes: list[_RingFootprint] = []
     far: list[Footprint] = []
     wrong: list[BuildingFault] = []
     for footprint in built:
@@ -110,7 +110,7 @@ def houses_of(
             far.append(footprint)
             continue
         shape = _shape(footprint, ring)
-        if isinstance(shape, _Shape):
+        if isinstance(shape, _RingFootprint):
             shapes.append(shape)
         else:
             wrong.append(BuildingFault(footprint.name, footprint.number, shape))
@@ -130,7 +130,7 @@ def _built(footprints: Sequence[Footprint]) -> list[Footprint]:
     return built or [f for f in footprints if not {"building", "building:part"} & f.tags.keys()]
 
 
-def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
+def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _RingFootprint | str:
     """Return the shape with a counter-clockwise ring, or the fault of the ring."""
     if len(ring) < 3:
         return f"its ring has {len(ring)} different corners, not three or more"
@@ -144,24 +144,24 @@ def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
     x, y = zip(*ring, strict=True)
     low, high = (min(x), min(y)), (max(x), max(y))
     tags = footprint.tags
-    return _Shape(footprint, ring, lid, abs(area), low, high, extent_of(tags), is_part(tags))
+    return _RingFootprint(footprint, ring, lid, abs(area), low, high, extent_of(tags), is_part(tags))
 
 
 class _Replaced(NamedTuple):
     """The remaining outlines and parts, and the outlines that stay beside their parts."""
 
-    left: list[_Shape]
+    left: list[_RingFootprint]
     uncovered: list[BuildingFault]
 
 
-def _replaced(shapes: list[_Shape]) -> _Replaced:
+def _replaced(shapes: list[_RingFootprint]) -> _Replaced:
     """Remove the outlines that parts replace; parts inherit from them the values that they lack."""
     parts = [s for s in shapes if s.part]
     if not parts:
         return _Replaced(shapes, [])
-    left: list[_Shape] = []
+    left: list[_RingFootprint] = []
     uncovered: list[BuildingFault] = []
-    named: dict[int, _Shape] = {}
+    named: dict[int, _RingFootprint] = {}
     for outline in (s for s in shapes if not s.part):
         own = [i for i, part in enumerate(parts) if _lies_in(part, outline)]
         named |= {i: _inheriting(parts[i], outline) for i in own if i not in named}
@@ -174,7 +174,7 @@ def _replaced(shapes: list[_Shape]) -> _Replaced:
     return _Replaced([*left, *(named.get(i, part) for i, part in enumerate(parts))], uncovered)
 
 
-def _lies_in(part: _Shape, outline: _Shape) -> bool:
+def _lies_in(part: _RingFootprint, outline: _RingFootprint) -> bool:
     """Return whether the middle of a part's largest triangle is in an outline."""
     (ax, ay), (bx, by), (cx, cy) = max(part.lid, key=signed_area)
     middle = ((ax + bx + cx) / 3, (ay + by + cy) / 3)
@@ -182,7 +182,7 @@ def _lies_in(part: _Shape, outline: _Shape) -> bool:
     return boxed and inside_polygon(outline.ring, middle)
 
 
-def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
+def _inheriting(part: _RingFootprint, outline: _RingFootprint) -> _RingFootprint:
     """Return a part with the name and the height of its building where it has none."""
     footprint, extent = part.footprint, part.extent
     if not footprint.tags.get("name") and outline.footprint.tags.get("name"):
@@ -192,7 +192,7 @@ def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
     return part._replace(footprint=footprint, extent=extent, outline=outline.footprint)
 
 
-def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
+def _made(shapes: Iterable[_RingFootprint], height: float | None) -> Houses:
     """Return the houses of shapes; height : of those with an unknown height, or None."""
     houses: list[House] = []
     wrong: list[BuildingFault] = []
@@ -217,6 +217,6 @@ def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
     return Houses(tuple(houses), tuple(wrong), () if left else tuple(unknown), left)
 
 
-def _features(shape: _Shape) -> tuple[Feature, ...]:
+def _features(shape: _RingFootprint) -> tuple[Feature, ...]:
     footprints = (shape.footprint, *(() if shape.outline is None else (shape.outline,)))
     return tuple(Feature(f.number, f.called) for f in footprints)

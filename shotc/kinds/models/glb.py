@@ -32,7 +32,7 @@ class _Placed(NamedTuple):
     matrix: Array
 
 
-class _File(NamedTuple):
+class _GlbFile(NamedTuple):
     """The header of a file, and the bytes of its buffer."""
 
     header: dict[str, Any]
@@ -77,7 +77,7 @@ def read_glb(data: bytes, most_corners: int) -> list[NodePart]:
     return parts
 
 
-def _file(data: bytes) -> _File:
+def _file(data: bytes) -> _GlbFile:
     if data[:4] != b"glTF" or int.from_bytes(data[4:8], "little") != 2:
         raise ValueError("it is no binary glTF 2.0")
     chunks: dict[int, bytes] = {}
@@ -94,10 +94,10 @@ def _file(data: bytes) -> _File:
     header = json.loads(chunks.get(JSON_CHUNK, b"null"))
     if not isinstance(header, dict):
         raise ValueError("it has no header")
-    return _File(header, chunks.get(BINARY_CHUNK, b""))
+    return _GlbFile(header, chunks.get(BINARY_CHUNK, b""))
 
 
-def _placed(file: _File) -> Iterator[_Placed]:
+def _placed(file: _GlbFile) -> Iterator[_Placed]:
     """Yield the meshes of the default scene with their transforms."""
     header = file.header
     if header.get("scenes"):
@@ -136,7 +136,7 @@ def _matrix(node: dict[str, Any]) -> Array:
     return matrix
 
 
-def _primitive(file: _File, primitive: dict[str, Any]) -> NodePart:
+def _primitive(file: _GlbFile, primitive: dict[str, Any]) -> NodePart:
     """Return the triangles or points of a primitive; lines become triangles without area."""
     attributes = primitive["attributes"]
     corners = _accessor(file, attributes["POSITION"])
@@ -167,7 +167,7 @@ def _triangles(order: IntArray, mode: int) -> IntArray:
     return np.column_stack([a, b, b])
 
 
-def _colors(file: _File, number: Any, count: int) -> Colors | None:
+def _colors(file: _GlbFile, number: Any, count: int) -> Colors | None:
     if number is None:
         return None
     values = _accessor(file, number)
@@ -177,7 +177,7 @@ def _colors(file: _File, number: Any, count: int) -> Colors | None:
     return np.asarray(np.clip(np.rint(values[:, :3] * whole), 0, 255), dtype=np.uint8)
 
 
-def _accessor(file: _File, number: Any) -> Array:
+def _accessor(file: _GlbFile, number: Any) -> Array:
     """Return the rows of an accessor as 64-bit floats, (count, columns).
 
     Raises ValueError if it is damaged.

@@ -15,7 +15,6 @@ from shotc.kinds.models.parts import ModelFault, NodePart
 from shotc.kinds.models.ply import read_ply
 from shotc.kinds.models.stl import read_stl
 
-KINDS = ("glb", "ply", "obj", "stl")
 MOST_CORNERS = 5_000_000
 """Most corners of a scene, with every placement of its meshes."""
 FOREIGN = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, struct.error)
@@ -23,7 +22,9 @@ FOREIGN = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, 
 
 
 def read_mesh(kind: str, data: bytes) -> list[NodePart] | ModelFault:
-    """Return the parts at the nodes of a file, in its own units and axes, or the fault; kind : one of KINDS.
+    """Return the parts at the nodes of a file, in its own units and axes, or the fault.
+
+    kind : "glb", "ply", "obj" or "stl"
 
     Coordinates are not checked; see ``parts.wrong_corners``.
     """

@@ -50,7 +50,7 @@ class ParameterizeTime:
         A shot that waits for one of another drone is timed after it, so the drones alternate.
         """
         paths: tuple[DronePath | TimedPath, ...] = (*ir.drones, *ir.timed)
-        pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in paths]
+        pilots = [_LegTimer(ir.keyframes.mission, path, ctx) for path in paths]
         ends: dict[str, float] = {}
         while any(pilot.advance(ends) for pilot in pilots):
             pass
@@ -66,7 +66,7 @@ class ParameterizeTime:
 
 
 @dataclass(slots=True)
-class _Pilot:
+class _LegTimer:
     """Times the legs of one drone in order, as far as the ends of the shots that it waits for are known."""
 
     mission: MissionIR

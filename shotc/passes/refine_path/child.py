@@ -32,7 +32,7 @@ class _Bare(NamedTuple):
     timed: tuple[TimedPath, ...]
 
 
-class _Order(NamedTuple):
+class _Request(NamedTuple):
     reference: str
     path: PathIR
     seed: int
@@ -50,7 +50,7 @@ def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContex
     Raises TooSlow if there is no answer in time, and Failed if the refiner raises or the process ends without
     an answer.
     """
-    data = child_process.module_path() + pickle.dumps(_Order(reference, path, ctx.seed, seconds))
+    data = child_process.module_path() + pickle.dumps(_Request(reference, path, ctx.seed, seconds))
     with child_process.started(__name__, answer.__name__) as process:
         try:
             answered, _ = process.communicate(data, timeout=seconds)
@@ -64,12 +64,12 @@ def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContex
 def answer(orders: BinaryIO) -> None:
     """Run in the process: refine the path in ``orders`` and write the answer to standard output."""
     with child_process.answers() as out:
-        order: _Order = pickle.load(orders)
+        order: _Request = pickle.load(orders)
         with child_process.ends_itself(order.seconds):
             out.write(child_process.answer_of(lambda: _refined(order)))
 
 
-def _refined(order: _Order) -> Any:
+def _refined(order: _Request) -> Any:
     refiner = EntryPoint("refiner", order.reference, "").load()
     return _bare(refiner.refine(order.path, PassContext(order.seed)), order.path)
 

@@ -67,7 +67,7 @@ class _Ordered(NamedTuple):
     stopped: Drone | None
 
 
-class _Known(NamedTuple):
+class _EarlierDrones(NamedTuple):
     """The data that one drone passes on to the next.
 
     durations : of shots, as in the pass
@@ -116,7 +116,7 @@ class SolvePathQp:
         """Plan drones one after the other; whole : whether the others are planned after one fails."""
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
-        known = _Known(self.durations, {}, {})
+        known = _EarlierDrones(self.durations, {}, {})
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
@@ -189,7 +189,7 @@ def _plan(
     ir: KeyframeIR,
     drone: Drone,
     ctx: PassContext,
-    known: _Known,
+    known: _EarlierDrones,
 ) -> _Planned:
     """Plan one drone's legs, and add its flight for the drones after it."""
     mission = ir.mission

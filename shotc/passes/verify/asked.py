@@ -31,7 +31,7 @@ class MissionDifference(NamedTuple):
     text: str
 
 
-class _Place(NamedTuple):
+class _ComparedPlace(NamedTuple):
     """The place of a comparison, in words and as a key path.
 
     passed : fields that are skipped
@@ -43,12 +43,12 @@ class _Place(NamedTuple):
     passed: frozenset[str]
     near: float = SAME_SHARE
 
-    def field(self, name: str) -> "_Place":
+    def field(self, name: str) -> "_ComparedPlace":
         """Return the place of a field."""
         words = f"{self.words}, {name}" if self.words else name
         return self._replace(words=words, path=(*self.path, WRITTEN.get(name, name)))
 
-    def item(self, words: str, path: KeyPath) -> "_Place":
+    def item(self, words: str, path: KeyPath) -> "_ComparedPlace":
         """Return the place of an element with its own name."""
         return self._replace(words=words, path=path)
 
@@ -65,8 +65,10 @@ def differences(
     same_text : whether both were lowered from one text, so that all places in it must be equal
     """
     passed = ELSEWHERE_IN_PLANS if same_text else ELSEWHERE_IN_PLANS | ELSEWHERE
-    yield from _walk(written.mission, reviewed.mission, _Place("", (), passed))
-    yield from _walk(written.shots, reviewed.shots, _Place("placed shots", ("shots",), passed | {"shot"}))
+    yield from _walk(written.mission, reviewed.mission, _ComparedPlace("", (), passed))
+    yield from _walk(
+        written.shots, reviewed.shots, _ComparedPlace("placed shots", ("shots",), passed | {"shot"})
+    )
     if same_text:
         yield from _origins(written, reviewed)
 
@@ -98,7 +100,7 @@ def _origins(written: KeyframeIR, reviewed: KeyframeIR) -> Iterator[MissionDiffe
                 return
 
 
-def _walk(written: Any, reviewed: Any, at: _Place) -> Iterator[MissionDifference]:
+def _walk(written: Any, reviewed: Any, at: _ComparedPlace) -> Iterator[MissionDifference]:
     if written is reviewed:
         return
     if isinstance(written, float | int) and isinstance(reviewed, float | int):
@@ -118,7 +120,9 @@ def _walk(written: Any, reviewed: Any, at: _Place) -> Iterator[MissionDifference
         yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
 
 
-def _items(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
+def _items(
+    written: Sequence[Any], reviewed: Sequence[Any], at: _ComparedPlace
+) -> Iterator[MissionDifference]:
     named = [_name(item) for item in (*written, *reviewed)]
     if named and all(named):
         yield from _named(written, reviewed, at)
@@ -134,7 +138,9 @@ def _items(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Itera
             yield from _walk(one, other, at.item(words, _path(other, at)))
 
 
-def _named(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
+def _named(
+    written: Sequence[Any], reviewed: Sequence[Any], at: _ComparedPlace
+) -> Iterator[MissionDifference]:
     """Yield differences of elements with names: which exist, their order, and each with its namesake."""
     mine, true = {_name(item): item for item in written}, {_name(item): item for item in reviewed}
     for name, item in true.items():
@@ -154,7 +160,7 @@ def _named(written: Sequence[Any], reviewed: Sequence[Any], at: _Place) -> Itera
             yield from _walk(mine[name], item, place)
 
 
-def _path(item: Any, at: _Place) -> KeyPath:
+def _path(item: Any, at: _ComparedPlace) -> KeyPath:
     """Return the key path of an element; for a placed shot that of its shot."""
     path: KeyPath = getattr(getattr(item, "shot", item), "path", at.path)
     return path

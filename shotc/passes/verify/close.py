@@ -83,7 +83,7 @@ def margins_close(flight: JudgedFlight, target: str, times: Array) -> bool:
         return np.asarray(a[:, 0] + b[:, 0] + 2 * ROUNDING_M >= drift)
 
     return _closes(
-        _Interval(times, flight.mission.rate), sample, closed, lambda m: np.asarray(m[:, 0] >= -ROUNDING_M)
+        _SampleTimes(times, flight.mission.rate), sample, closed, lambda m: np.asarray(m[:, 0] >= -ROUNDING_M)
     )
 
 
@@ -125,7 +125,7 @@ def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, lim
         return np.asarray(a[:, 0] + b[:, 0] + fastest * dt <= 2 * limit)
 
     return _closes(
-        _Interval(times, flight.mission.rate), sample, closed, lambda m: np.asarray(m[:, 0] <= limit)
+        _SampleTimes(times, flight.mission.rate), sample, closed, lambda m: np.asarray(m[:, 0] <= limit)
     )
 
 
@@ -152,7 +152,7 @@ def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Interval:
+class _SampleTimes:
     """Sample times; neighbours more than two and a half ticks apart do not adjoin."""
 
     times: Array
@@ -164,7 +164,7 @@ class _Interval:
 
 
 def _closes(
-    interval: _Interval,
+    interval: _SampleTimes,
     sample: Callable[[Array], Array],
     closed: Callable[[Array, Array, Array], Mask],
     keeps: Callable[[Array], Mask],

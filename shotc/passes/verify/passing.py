@@ -96,7 +96,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
     return [one for _, one in worst_first]
 
 
-class _Named(NamedTuple):
+class _NamedSolid(NamedTuple):
     """The solid that a claim names, its key path, and the flight relative to it."""
 
     solid: Solid
@@ -105,14 +105,14 @@ class _Named(NamedTuple):
     counts_from: str = ""
 
 
-def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
+def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _NamedSolid:
     """Return the solid that a claim names, its key path, and the flight relative to it."""
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
-            return _Named(target.kept_clear, target.path, beside(curve, target), target.counts_from)
+            return _NamedSolid(target.kept_clear, target.path, beside(curve, target), target.counts_from)
     zone = next(zone for zone in mission.zones if name == f"zone {zone.name}")
-    return _Named(zone.solid, zone.path, curve)
+    return _NamedSolid(zone.solid, zone.path, curve)
 
 
 def _diagnostic(ir: TrajectoryIR, together: list[tuple[Claim, ClosestPass]]) -> Diagnostic:

@@ -14,7 +14,7 @@ planned later film at fixed times.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -45,9 +45,6 @@ CLOSER_PARTS, REFINEMENTS = 20, 2  # parts of a refined step near a target, and 
 LEAVES_S = 3.0  # seconds after a shot, in which the drone gets away from its end
 PROVED_M = 1e-6  # metres
 WAITED_M = 1e3  # metres, penalty for a clearance that costs too long a wait
-
-Course = Callable[[Array], Array]
-"""Positions (M, 3), metres, at mission times (M,), seconds."""
 
 
 @dataclass(frozen=True, slots=True)

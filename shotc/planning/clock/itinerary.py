@@ -60,7 +60,7 @@ LATE_S = 1e-6  # seconds
 AMPLE_RATIO = 1.5  # time that a transfer without a deadline may take, over its direct duration
 
 
-class _State(NamedTuple):
+class _Snapshot(NamedTuple):
     """A snapshot of an itinerary, with the same field names."""
 
     legs: tuple[Leg, ...]
@@ -76,7 +76,7 @@ class _Last(NamedTuple):
     """The last shot, if it is on its own clock, and the state before it."""
 
     reached: Reached
-    before: _State
+    before: _Snapshot
 
 
 @dataclass(slots=True)
@@ -164,11 +164,11 @@ class Itinerary:
                 return True
         return False
 
-    def _state(self) -> _State:
+    def _state(self) -> _Snapshot:
         lists = tuple(self.legs), self.clock, tuple(self.deviations), tuple(self.stats)
-        return _State(*lists, dict(self.ends), self.last, self.slack)
+        return _Snapshot(*lists, dict(self.ends), self.last, self.slack)
 
-    def _restore(self, state: _State) -> None:
+    def _restore(self, state: _Snapshot) -> None:
         self.legs, self.clock = list(state.legs), state.clock
         self.deviations, self.stats = list(state.deviations), list(state.stats)
         self.last, self.slack = state.last, state.slack

@@ -310,7 +310,7 @@ def held_where_it_rests(task: ClockTask, curve: Piecewise) -> bool:
     )
 
 
-class _Stand(NamedTuple):
+class _RestEnd(NamedTuple):
     """An end of a motion: the obstacles while the drone stands there, its place, and its control row.
 
     place : as a piece's hull, shape (1, 2, 3)
@@ -321,11 +321,11 @@ class _Stand(NamedTuple):
     row: int
 
 
-def _stands(task: ClockTask, hulls: Array) -> tuple[_Stand, ...]:
+def _stands(task: ClockTask, hulls: Array) -> tuple[_RestEnd, ...]:
     """Return both ends of a motion."""
     ends = ((hulls[0, 0], 0), (hulls[-1, -1], -1))
     return tuple(
-        _Stand(passing, np.tile(place, (1, 2, 1)), row)
+        _RestEnd(passing, np.tile(place, (1, 2, 1)), row)
         for passing, (place, row) in zip(task.passing, ends, strict=True)
     )
 

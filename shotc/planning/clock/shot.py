@@ -150,7 +150,7 @@ def timed_shot(
     curve = _with_camera(task, flown.curve)
     if isinstance(curve, Status):
         return NoMotion(curve, (), "camera")
-    task, flown, curve = _seeing(_Motion(task, flown, curve))
+    task, flown, curve = _seeing(_PlannedMotion(task, flown, curve))
     assert flown.curve is not None
     distances = _away(task, flown.curve)
     keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
@@ -181,7 +181,7 @@ def _with_camera(task: ClockTask, position: Piecewise) -> Piecewise | Status:
     return Piecewise(task.clock.breaks, np.concatenate([position.ctrl, turned.curve.ctrl, lens], axis=2))
 
 
-class _Motion(NamedTuple):
+class _PlannedMotion(NamedTuple):
     """A motion: its task, its position, and all channels of it."""
 
     task: ClockTask
@@ -189,7 +189,7 @@ class _Motion(NamedTuple):
     curve: Piecewise
 
 
-def _seeing(best: _Motion) -> _Motion:
+def _seeing(best: _PlannedMotion) -> _PlannedMotion:
     """Return the motion with ways between keyframes led to where targets are visible, if that helps."""
     task = best.task
     spans = ways_of(task)
@@ -207,7 +207,7 @@ def _seeing(best: _Motion) -> _Motion:
         improved = shown(led, spans, turned)
         if not improved.better(least):
             break
-        best, least = _Motion(led, motion, turned), improved
+        best, least = _PlannedMotion(led, motion, turned), improved
     return best
 
 

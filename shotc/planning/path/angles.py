@@ -89,7 +89,7 @@ class CameraLine:
     unsolved: int = 0
 
 
-class _Known(NamedTuple):
+class _KnownAngles(NamedTuple):
     """Angles at a path parameter; ``group`` as in ``unwrapping.Known``, ``keyframe`` its index or -1."""
 
     s: float
@@ -277,8 +277,8 @@ def _untracked(tracked: Array, breaks: Array) -> Array:
 
 def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, hfov: Piecewise) -> _Samples:
     """Return the reference angles on framed intervals and the fixed ones, with the yaw unwrapped."""
-    samples: list[_Known] = []
-    anchors: list[_Known] = []
+    samples: list[_KnownAngles] = []
+    anchors: list[_KnownAngles] = []
     cuts: list[UnreachableAngles] = []
     last_yaw, group = keyed.keyframes[0].yaw, 0
     for i, keyframe in enumerate(keyed.keyframes):
@@ -291,12 +291,12 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
             for s, aim in zip(at, aims, strict=True):
                 if aim is not None:
                     last_yaw, free = _near(aim[0], last_yaw), False
-                    samples.append(_Known(float(s), last_yaw, aim[1], group))
+                    samples.append(_KnownAngles(float(s), last_yaw, aim[1], group))
         group += free
         anchor = _anchor(mission, drone, keyed, i)
         if anchor is not None and not (anchors and keyed.s[i] <= anchors[-1].s):
             last_yaw = _near(anchor[0], last_yaw)
-            anchors.append(_Known(float(keyed.s[i]), last_yaw, anchor[1], group, i))
+            anchors.append(_KnownAngles(float(keyed.s[i]), last_yaw, anchor[1], group, i))
     turns = UnwrappedTurn([0.0], (), 0)
     if group:
         turns = turned(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
@@ -308,11 +308,11 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
     return _Samples(*columns, tuple(cuts), turns.planned, turns.unsolved)
 
 
-def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
+def _places(keyed: KeyedPath, samples: list[_KnownAngles], anchors: list[_KnownAngles]) -> list[Known]:
     """Return the yaws that fix the turns: those of keyframes, and the first and last of each framed
     interval.
     """
-    ends: dict[int, list[_Known]] = {}
+    ends: dict[int, list[_KnownAngles]] = {}
     for k in samples:
         ends[k.group] = [ends.get(k.group, [k])[0], k]
     at = {k.s: k for k in (*(k for pair in ends.values() for k in pair), *anchors)}

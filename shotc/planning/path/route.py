@@ -66,14 +66,14 @@ def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
 def _round_solids(space: FreeSpace, first: Mask, start: Array, end: Array) -> Array | None:
     """Return the route around solids, some of which block the straight line; meshes are ignored."""
     grown = [_grow(o) for o in space.obstacles]
-    near = _search(_Scene(space, grown, 1.0), first, start, end)
+    near = _search(_RouteSearch(space, grown, 1.0), first, start, end)
     if near is not None:
-        roomy = _search(_Scene(space, grown, ROOMY_RATIO), first, start, end)
+        roomy = _search(_RouteSearch(space, grown, ROOMY_RATIO), first, start, end)
         if roomy is not None and length(roomy) <= DETOUR_RATIO * length(near):
             near = roomy
         return _level(space, near)
     for share in NARROW_SHARES:
-        narrow = _search(_Scene(space, grown, share), first, start, end)
+        narrow = _search(_RouteSearch(space, grown, share), first, start, end)
         if narrow is not None:
             return narrow
     return None
@@ -85,7 +85,7 @@ def length(route: Array) -> float:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Scene:
+class _RouteSearch:
     """The input of a search; ``share`` is the share of the usual margins that it keeps."""
 
     space: FreeSpace
@@ -101,7 +101,7 @@ class _Scene:
         return self.grown[j].clearance + self.share * NODE_MARGIN_M
 
 
-def _search(scene: _Scene, first: Mask, start: Array, end: Array) -> Array | None:
+def _search(scene: _RouteSearch, first: Mask, start: Array, end: Array) -> Array | None:
     active = first
     best: Array | None = None
     for _ in range(len(scene.grown) + 1):
@@ -116,7 +116,7 @@ def _search(scene: _Scene, first: Mask, start: Array, end: Array) -> Array | Non
 class _Graph:
     """One search: nodes from some obstacles, edges tested against all of them."""
 
-    def __init__(self, scene: _Scene, active: IntArray, start: Array, end: Array) -> None:
+    def __init__(self, scene: _RouteSearch, active: IntArray, start: Array, end: Array) -> None:
         self.scene = scene
         corners = [_nodes(scene, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
@@ -236,7 +236,7 @@ def _corners(g: _Grown, growth: float) -> Array:
     return np.stack([x, y], axis=1)
 
 
-def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) -> Array:
+def _nodes(scene: _RouteSearch, j: int, active: IntArray, start: Array, end: Array) -> Array:
     """Return the corners of one grown obstacle at the candidate heights, shape (N, 3)."""
     xy = _corners(scene.grown[j], scene.node_reach(j))
     chord = end[:2] - start[:2]
@@ -251,7 +251,7 @@ def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) ->
     return np.concatenate([*corners, *_crossings(scene, j, xy, start, end)])
 
 
-def _crossings(scene: _Scene, j: int, xy: Array, start: Array, end: Array) -> list[Array]:
+def _crossings(scene: _RouteSearch, j: int, xy: Array, start: Array, end: Array) -> list[Array]:
     """Return nodes above or below an obstacle: where the straight line crosses its rim, and along its
     sides.
     """

@@ -45,7 +45,7 @@ _STEPS = np.array(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Grid:
+class _VoxelGrid:
     """A grid of voxels around two places.
 
     low : middle of the first voxel in W, metres
@@ -74,13 +74,13 @@ def route_through(space: FreeSpace, start: Array, end: Array) -> Array | None:
             if (around, grid.side) in sides:
                 continue
             sides.add((around, grid.side))
-            route = _Search(space, grid, start, end).route()
+            route = _VoxelGraph(space, grid, start, end).route()
             if route is not None:
                 return _in_short_legs(_pulled(space, route))
     return None
 
 
-def _grid(space: FreeSpace, ends: tuple[Array, Array], around: float, most: int) -> _Grid:
+def _grid(space: FreeSpace, ends: tuple[Array, Array], around: float, most: int) -> _VoxelGrid:
     """Return a grid around two places, such that the first is the middle of a voxel."""
     low, high = np.minimum(*ends) - around, np.maximum(*ends) + around
     floors = [wall.offset for wall in space.walls if wall.normal == (0.0, 0.0, 1.0)]
@@ -89,13 +89,13 @@ def _grid(space: FreeSpace, ends: tuple[Array, Array], around: float, most: int)
     side = max(FINEST_M, float(np.prod(high - low) / most) ** (1.0 / 3.0))
     before = np.floor((ends[0] - low) / side)
     count = (before + np.floor((high - ends[0]) / side) + 1).astype(int)
-    return _Grid(ends[0] - before * side, side, (int(count[0]), int(count[1]), int(count[2])))
+    return _VoxelGrid(ends[0] - before * side, side, (int(count[0]), int(count[1]), int(count[2])))
 
 
-class _Search:
+class _VoxelGraph:
     """The free voxels of a grid as a graph, with the two ends as its first nodes."""
 
-    def __init__(self, space: FreeSpace, grid: _Grid, start: Array, end: Array) -> None:
+    def __init__(self, space: FreeSpace, grid: _VoxelGrid, start: Array, end: Array) -> None:
         self.space = space
         free, slack = _free_voxels(space, grid)
         voxels = np.flatnonzero(free)
@@ -145,7 +145,7 @@ def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
     return shut
 
 
-def _free_voxels(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
+def _free_voxels(space: FreeSpace, grid: _VoxelGrid) -> tuple[Mask, Array]:
     """Return which voxels' middles are free, and lower bounds of their slack beyond a margin, metres."""
     every = np.arange(int(np.prod(grid.shape)))
     slack = np.full(len(every), ROOM_M)
@@ -160,7 +160,7 @@ def _free_voxels(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
     return slack >= 0.0, slack
 
 
-def _beside(beside: BesideMesh, grid: _Grid) -> Array:
+def _beside(beside: BesideMesh, grid: _VoxelGrid) -> Array:
     """Return lower bounds of the slack of voxels' middles from a mesh, metres, at most about ROOM_M.
 
     The distance from the nearest voxel with a corner of a small triangle gives a rough bound. Where that is
@@ -188,7 +188,7 @@ def _beside(beside: BesideMesh, grid: _Grid) -> Array:
     return np.asarray(slack)
 
 
-def _neighbours(grid: _Grid, free: Mask) -> IntArray:
+def _neighbours(grid: _VoxelGrid, free: Mask) -> IntArray:
     """Return pairs of nodes, shape (K, 2), of free voxels that touch; nodes 0 and 1 are the ends."""
     number = np.full(len(free), -1)
     number[free] = 2 + np.arange(int(free.sum()))

@@ -68,7 +68,7 @@ class _Deadline:
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
+class _MovePart:
     """A part of a move: its end, its duration and its least one, seconds, and the index of its deadline."""
 
     move: int
@@ -79,7 +79,7 @@ class _Part:
 
 
 @dataclass(frozen=True, slots=True)
-class _Late:
+class _MissedDeadline:
     """The index of the deadline that is not reached, and the missing seconds if they are known."""
 
     deadline: int
@@ -172,8 +172,8 @@ def _available(plan: StopPlan, a: _Deadline, b: _Deadline) -> float:
     return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
 
 
-def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _Late:
-    parts: list[_Part] = []
+def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _MissedDeadline:
+    parts: list[_MovePart] = []
     plan = timed.plan.leaving({a.s: a.leaves - a.arrives for a in deadlines})
     for i, (a, b) in enumerate(pairwise(deadlines)):
         split = _parts(plan, timed.fast, a.s, b.s)
@@ -183,17 +183,17 @@ def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _Late:
         if lack > ROUNDING_SHARE * (1 + available) + SOLVED_SHARE * least and (
             available <= 0 or (plan.rests_at(a.s) and plan.rests_at(b.s))
         ):
-            return _Late(i + 1, lack)
-        parts += [_Part(p.move, p.end, available * p.duration / least, p.duration, i + 1) for p in split]
+            return _MissedDeadline(i + 1, lack)
+        parts += [_MovePart(p.move, p.end, available * p.duration / least, p.duration, i + 1) for p in split]
     rest = _parts(plan, timed.paced, deadlines[-1].s, plan.stops[-1].s)
-    parts += [_Part(p.move, p.end, p.duration, p.duration, len(deadlines)) for p in rest]
+    parts += [_MovePart(p.move, p.end, p.duration, p.duration, len(deadlines)) for p in rest]
     moves: list[TimedMove] = []
     for m, move in enumerate(timed.fast):
         own = [p for p in parts if p.move == m]
         slowed = _made(timed, move, own)
         if slowed is None:
             known = [p for p in own if p.deadline < len(deadlines)]
-            return _Late(min(known, key=lambda p: p.duration / p.least).deadline)
+            return _MissedDeadline(min(known, key=lambda p: p.duration / p.least).deadline)
         moves.append(slowed)
     return Timed(plan, tuple(moves))
 
@@ -217,7 +217,7 @@ def _parts(plan: StopPlan, moves: tuple[TimedMove, ...], start: float, end: floa
     return parts
 
 
-def _made(timed: LegDeadlines, fast: TimedMove, parts: list[_Part]) -> TimedMove | None:
+def _made(timed: LegDeadlines, fast: TimedMove, parts: list[_MovePart]) -> TimedMove | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0 - SOLVED_SHARE, parts[0].duration / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))
@@ -227,7 +227,7 @@ def _made(timed: LegDeadlines, fast: TimedMove, parts: list[_Part]) -> TimedMove
 
 
 def _least_delay(
-    timed: LegDeadlines, deadlines: list[_Deadline], late: _Late, shifts_rest: bool
+    timed: LegDeadlines, deadlines: list[_Deadline], late: _MissedDeadline, shifts_rest: bool
 ) -> float | None:
     """Return the least feasible delay of the late deadline (and of all after it), seconds, or None."""
 

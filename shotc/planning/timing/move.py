@@ -120,7 +120,7 @@ def time_move(
         timed = start if bounded is None else bounded
         coarse = np.ones(len(samples.widths), dtype=np.bool_)
         if bounded is not None:
-            tried = _Tried(path, samples.grid, bounded, limits, ceiling)
+            tried = _FlownProfile(path, samples.grid, bounded, limits, ceiling)
             best = tried if best is None or tried.seconds < best.seconds else best
             last = tried.profile.duration
             coarse = tried.coarse
@@ -133,14 +133,14 @@ def time_move(
     if best is None:
         samples, start = first
         calm = start_from(samples.widths, evened(start.b))
-        best = _Tried(path, samples.grid, calm, limits, ceiling)
+        best = _FlownProfile(path, samples.grid, calm, limits, ceiling)
         held = best.held
     cells = len(best.flown.ctrl)
     move = TimedMove(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
     return move.stretched(best.slowdown)
 
 
-class _Opening(NamedTuple):
+class _FirstGrid(NamedTuple):
     """The first grid, the initial guess on it, and the least time without a jerk limit, seconds."""
 
     samples: Samples
@@ -150,7 +150,7 @@ class _Opening(NamedTuple):
 
 def _opening(
     path: Piecewise, span: tuple[float, float], limits: tuple[LimitedNorm, ...], through: tuple[float, ...]
-) -> _Opening:
+) -> _FirstGrid:
     """Return the first grid, the initial guess on it, and the least time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
     grid = lay_grid(path, rough_s, rough_b, np.array(through))
@@ -160,10 +160,10 @@ def _opening(
     if quickest.status is Status.SOLVED:
         around = np.minimum(around, quickest.b)
     start = start_from(samples.widths, np.maximum(around, SLOWEST_SHARE * around.max()))
-    return _Opening(samples, start, quickest.time)
+    return _FirstGrid(samples, start, quickest.time)
 
 
-class _Tried:
+class _FlownProfile:
     """A profile with its flown quintics.
 
     slowdown : factor that keeps every limit, at least 1

@@ -20,7 +20,7 @@ from shotc.show.assignment.faults import no_room, no_way_over
 from shotc.show.assignment.over import LiftedCandidate, MoveSurroundings, MoveTask, over
 from shotc.show.assignment.score import Motion, written
 from shotc.show.assignment.swell import Ends, Heights, lack_of, led
-from shotc.show.geom.arcs import Free, Gaps
+from shotc.show.geom.arcs import FreeRegion, Gaps
 from shotc.show.geom.least_size import ROUNDING, LeastSize, least_size
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.goals.room import DisplaySurroundings, RoomLack, room_of
@@ -143,7 +143,7 @@ class Mover:
     def _arcs(
         self,
         ends: Ends,
-        free: Free | None,
+        free: FreeRegion | None,
         pace: float,
         picture: Picture | None,
         surroundings: DisplaySurroundings,
@@ -174,7 +174,7 @@ class Mover:
         move = own_heights(OwnHeightsTask(ends, scale, self.fleet.limits, pace, heights), pivot)
         return move if move is not None and _proved(ends, move, apart) else None
 
-    def _free(self, ends: Ends) -> Free | None:
+    def _free(self, ends: Ends) -> FreeRegion | None:
         """Return the free region of the two scalars of a common move; None if straight paths keep the
         separation.
         """

@@ -36,7 +36,7 @@ SAMPLES = 24
 """Parts of a spline's piece, at whose ends it is sampled."""
 
 
-class Free(Protocol):
+class FreeRegion(Protocol):
     """The region of (a, b) in which no two drones come too near."""
 
     def ways(self) -> Iterator[Array]:

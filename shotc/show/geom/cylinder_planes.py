@@ -67,7 +67,7 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
         times is larger: a motion that keeps the half-planes of another keeps those of its own, too. Where the
         pair is a little too near in the odd row, both half-planes are moved outwards by what it lacks.
     """
-    motion = _Motion(before, after, scalars)
+    motion = _FleetMotion(before, after, scalars)
     found: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
     least = REACH_RATIO
     for middle in range(1, len(scalars), 2):
@@ -99,14 +99,14 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
 
 def least_before_and_after(before: Array, after: Array) -> float:
     """Return the least distance of two drones in two formations, at most 1; arguments as above."""
-    motion = _Motion(before, after, np.array([[1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]]))
+    motion = _FleetMotion(before, after, np.array([[1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]]))
     return min(
         float(np.maximum(*motion.gaps(k).distances(motion.scalars[k])).min(initial=1.0)) for k in (0, 1)
     )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Motion:
+class _FleetMotion:
     """Positions of all drones by their scalars; the arguments of ``cylinder_planes``."""
 
     before: Array

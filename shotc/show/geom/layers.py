@@ -16,7 +16,6 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.show.geom.lattice import MOST_BISECTIONS, MOST_POINTS, Mould, rows_of
 
-MOST_LAYERS = 4
 _SQUARE = {
     2: ((0.5, 0.5),),
     3: ((1 / 3, 1 / 3), (2 / 3, 2 / 3)),

@@ -18,7 +18,7 @@ RING_LIGHTS = 3
 """Least lights of a closed line without corners."""
 
 
-class _Part(NamedTuple):
+class _EdgeLine(NamedTuple):
     """A line (K, 2) between corners.
 
     open : whether its end is not the start of another part
@@ -48,13 +48,13 @@ def along_edges(edges: Sequence[Array], count: int, least: float, metric: Array)
     lines = [line for each in edges for line in _lines(each)]
     parts = [part for line in lines for part in _parts(line, least, metric)]
     if sum(part.fewest for part in parts) > count:
-        whole = [_Part(line, not _closed(line)) for line in lines]
+        whole = [_EdgeLine(line, not _closed(line)) for line in lines]
         parts = sorted(whole, key=lambda part: -part.length)[:count]
     shares = _shared(parts, count)
     return np.concatenate([_spread(part, n) for part, n in zip(parts, shares, strict=True)])
 
 
-def _shared(parts: Sequence[_Part], count: int) -> list[int]:
+def _shared(parts: Sequence[_EdgeLine], count: int) -> list[int]:
     """Return the number of lights of each part; each light goes to the part with the largest spacing."""
     shares = [part.fewest for part in parts]
     if sum(shares) > count:
@@ -82,7 +82,7 @@ def _closed(line: Array) -> bool:
     return bool(np.linalg.norm(line[0] - line[-1]) <= 1e-6)
 
 
-def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
+def _parts(line: Array, least: float, metric: Array) -> list[_EdgeLine]:
     """Return a line cut at its corners; of corners nearer than ``least``, only the sharpest counts."""
     steps = np.diff(line, axis=0)
     angle = np.arctan2(steps[:, 1], steps[:, 0])
@@ -95,20 +95,20 @@ def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
         if (np.linalg.norm((line[chosen] - line[k]) * metric, axis=1) >= least).all():
             chosen.append(int(k))
     if not chosen:
-        return [_Part(line, not closed)]
+        return [_EdgeLine(line, not closed)]
     cuts = np.sort(chosen)
     if closed:
         line = np.concatenate([np.roll(line[:-1], -cuts[0], axis=0), line[cuts[:1] % (len(line) - 1)]])
         cuts = cuts[1:] - cuts[0]
     ends = [0, *cuts.tolist(), len(line) - 1]
-    return [_Part(line[i : j + 1], not closed and j == ends[-1]) for i, j in pairwise(ends) if j > i]
+    return [_EdgeLine(line[i : j + 1], not closed and j == ends[-1]) for i, j in pairwise(ends) if j > i]
 
 
 def _steps(line: Array) -> Array:
     return np.asarray(np.linalg.norm(np.diff(line, axis=0), axis=1))
 
 
-def _spread(part: _Part, count: int) -> Array:
+def _spread(part: _EdgeLine, count: int) -> Array:
     """Return places along a part, from its start to its end, or to one step before the start of
     another part.
     """

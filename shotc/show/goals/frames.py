@@ -37,14 +37,14 @@ def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[
     fault = _uneven(source, meshes) or _out_of_scale(source, meshes[0])
     if fault is not None:
         return fault
-    place = _Place(source, meshes[0].corners)
+    place = _FileToWorld(source, meshes[0].corners)
     if source.height is not None and not np.ptp(meshes[0].corners[:, 2]) > 0:
         message = f"model `{source.files[0]}` is flat and cannot be scaled to a `height`"
         return SourceFault("D050", "height", message, ("all of its points are level",), "leave `height` out")
     return [mesh_body(ModelMesh(place.of(m.corners), m.triangles, m.colors)) for m in meshes]
 
 
-class _Place:
+class _FileToWorld:
     """Maps a file's coordinates to W, about the middle of the first frame's bounding box."""
 
     def __init__(self, source: Model, first: Array) -> None:

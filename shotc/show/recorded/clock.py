@@ -31,7 +31,6 @@ OVER_SHARE = 1e-4
 """Share by which pieces grow beyond their lack, so that the iterations end."""
 LEEWAY_SHARE = 0.05
 """Largest share of a limit that is granted for the rounding of a file."""
-WORDS = ("speed", "climb", "descent", "acceleration", "jerk")
 
 
 class Need(NamedTuple):

@@ -103,7 +103,7 @@ class Staged(NamedTuple):
     leaned: tuple[Leaned, ...]
 
 
-class _Part(NamedTuple):
+class _ClearSpan(NamedTuple):
     """The numbers of the breaks between which all drones are clear of the ground."""
 
     up: int
@@ -193,7 +193,7 @@ def _heights(points: Array, requirements: FitRequirements) -> Array:
     return np.asarray(points[..., 2] - ground)
 
 
-def _part(heights: Array, times: Array, least: float) -> _Part | Grounded:
+def _part(heights: Array, times: Array, least: float) -> _ClearSpan | Grounded:
     """Return the breaks between which all drones are clear of the ground.
 
     heights : of control points above the ground, (n, K), m; least : that of a clear drone, m
@@ -204,7 +204,7 @@ def _part(heights: Array, times: Array, least: float) -> _Part | Grounded:
     falls = np.where(clear.any(axis=1), count - 1 - np.argmax(clear[:, ::-1], axis=1), -1)
     up, down = int(rises.max()), int(falls.min()) - 2
     if down - up >= 1:
-        return _Part(up, down)
+        return _ClearSpan(up, down)
     late, early = int(np.argmax(rises)), int(np.argmin(falls))
     when = [float(times[k]) if 0 <= k < count else np.inf for k in (rises[late], falls[early])]
     return Grounded(late, when[0], early, when[1])

@@ -19,7 +19,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
-from shotc.show.geom.arcs import Free, angles
+from shotc.show.geom.arcs import FreeRegion, angles
 from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RATIO, family
 
 PIECES = (12, 16, 20, 24, 32, 40)
@@ -95,7 +95,7 @@ class ArcMove:
 def fastest_arc(
     ends: tuple[Array, Array],
     pivot: Array,
-    free: Free,
+    free: FreeRegion,
     limits: Limits,
     pace: float,
     easing: Easing = "ease-in-out",
@@ -116,7 +116,7 @@ def fastest_arc(
     return ArcMove(ctrl, ctrl, pivot, binding.ticks, binding.limit, binding.drone)
 
 
-def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
+def _shortest(busy: Drones, free: FreeRegion, easing: Easing) -> Array:
     """Return the control points of (a, b), shape (K, 2), of the fastest move."""
     best, shortest = (1.0, inf), np.zeros((0, 2))
     for line in free.ways():

@@ -25,7 +25,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
-from shotc.show.geom.arcs import Free, basis_at_starts
+from shotc.show.geom.arcs import FreeRegion, basis_at_starts
 from shotc.show.solvers.arc_move import LACK_SHARE, Drones, times_of
 from shotc.show.solvers.move import family
 
@@ -123,7 +123,7 @@ class Course(NamedTuple):
     """The allowed (a, b) of a move: about which pivot, and on which arcs, None for straight paths."""
 
     pivot: Array
-    arcs: Free | None = None
+    arcs: FreeRegion | None = None
 
     def ways(self) -> Iterator[Array]:
         """Yield (a, b) along paths from (1, 0) to (0, 1), at uniform steps, (N, 2)."""

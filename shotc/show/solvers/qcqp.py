@@ -169,7 +169,7 @@ def _excess(values: Array, order: int, bounds: DerivativeBounds) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Rows:
+class _DerivativeRows:
     """Rows of one derivative; scale : factor that normalises each, shape (R,)."""
 
     order: int
@@ -199,7 +199,7 @@ class FleetProgramme:
             touched = np.flatnonzero(matrix[:, within].any(axis=1))
             scale = 1.0 / np.linalg.norm(matrix[touched, within], axis=1)
             blocks.append(matrix[touched] * scale[:, None])
-            self.rows.append(_Rows(order, slice(at, at + len(touched)), scale))
+            self.rows.append(_DerivativeRows(order, slice(at, at + len(touched)), scale))
             at += len(touched)
         whole = np.concatenate(blocks)
         self.dense = whole
@@ -215,7 +215,7 @@ class FleetProgramme:
         """Return control points near the optimum, (n, K, 3), which drones reached it, and the slowest's
         iterations.
         """
-        state = _State.of(self, reference)
+        state = _Iterates.of(self, reference)
         done = np.zeros(len(reference), dtype=bool)
         result, active, rounds = reference.copy(), np.arange(len(reference)), 0
         levels = np.full(len(reference), len(STEP_RATIOS) // 2)
@@ -257,7 +257,7 @@ class FleetProgramme:
         result[self.within] += x[: 3 * count].reshape(3, count).T
         return result
 
-    def _cones(self, rows: ConeRows, part: _Rows, base: Array) -> None:
+    def _cones(self, rows: ConeRows, part: _DerivativeRows, base: Array) -> None:
         limits, matrix = self.bounds.limits, self.dense[part.span, self.within]
         count = matrix.shape[1]
 
@@ -285,7 +285,7 @@ class FleetProgramme:
         return values
 
 
-def _project(values: Array, part: _Rows, bounds: DerivativeBounds) -> None:
+def _project(values: Array, part: _DerivativeRows, bounds: DerivativeBounds) -> None:
     limits, scale = bounds.limits, part.scale[:, None]
     if part.order == 1:
         across = np.hypot(values[..., 0], values[..., 1])
@@ -301,7 +301,7 @@ def _project(values: Array, part: _Rows, bounds: DerivativeBounds) -> None:
 
 
 @dataclass(slots=True, eq=False)
-class _State:
+class _Iterates:
     """The iterates of a block of drones: x (free points), z and u (rows), with the drones on the
     middle axis.
     """
@@ -315,7 +315,7 @@ class _State:
     u: Array
 
     @staticmethod
-    def of(programme: FleetProgramme, reference: Array) -> _State:
+    def of(programme: FleetProgramme, reference: Array) -> _Iterates:
         """Start at the wanted splines; wanted : shape (n, K, 3)."""
         flat = np.ascontiguousarray(np.moveaxis(reference, 1, 0))
         count = len(reference)
@@ -324,7 +324,7 @@ class _State:
         inner = flat[programme.within]
         pull = (programme.inner @ inner.reshape(len(inner), -1)).reshape(inner.shape)
         rows = (programme.free @ inner.reshape(len(inner), -1)).reshape(base.shape) + base
-        return _State(
+        return _Iterates(
             programme, base, pull, inner, inner.copy(), programme.project(rows), np.zeros_like(base)
         )
 

@@ -33,34 +33,13 @@ class FleetConditions:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FlownFleet:
-    """The simulated flight of a fleet, sampled every ``PERIOD_S``: times (T,), all else (n, T, 3).
+class FleetSample:
+    """One time of a simulated flight, seconds; all else of shape (n, 3).
 
     position, velocity : of the drones over ground
     planned : planned positions
     preferred : velocities that the controller asks for, before avoidance
     """
-
-    times: Array
-    position: Array
-    velocity: Array
-    planned: Array
-    preferred: Array
-
-    @property
-    def error(self) -> Array:
-        """Distance of each drone from its planned position at the same time, shape (n, T), metres."""
-        return np.asarray(np.linalg.norm(self.position - self.planned, axis=2))
-
-    @property
-    def rmse(self) -> float:
-        """Root mean square of the error over drones and times, metres."""
-        return float(np.sqrt(np.mean(self.error**2)))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FleetSample:
-    """One time of ``FlownFleet``: the time, and (n, 3) of each other array."""
 
     time: float
     position: Array
@@ -90,15 +69,3 @@ def flying(
             ask = avoid(state.position, state.over_ground, within(ask, conditions.vehicle.speed))
         state = moved(conditions.vehicle, state, ask, PERIOD_S)
         state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD_S, rng))
-
-
-def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> FlownFleet:
-    """Return all samples of ``flying`` together; a thousand drones take megabytes for each second."""
-    moments = list(flying(breaks, coef, conditions, avoid))
-    return FlownFleet(
-        np.array([each.time for each in moments]),
-        np.stack([each.position for each in moments], axis=1),
-        np.stack([each.velocity for each in moments], axis=1),
-        np.stack([each.planned for each in moments], axis=1),
-        np.stack([each.preferred for each in moments], axis=1),
-    )

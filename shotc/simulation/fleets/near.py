@@ -39,19 +39,6 @@ class ClosestPair:
     below: int
 
 
-def nearest(times: Array, position: Array, apart: Distances, limit: float) -> ClosestPair:
-    """Return the nearest of all pairs.
-
-    times : (T,), seconds, at least two
-    position : (n, T, 3), metres, at least two drones
-    limit : horizontal distance for ``ClosestPair.below``, metres
-    """
-    search = NearestSearch(apart, limit)
-    for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
-        search.add(time, places)
-    return search.nearest()
-
-
 class Across:
     """The nearest pair of drones from different fleets, whose positions (n, 3) and (m, 3) are added over
     time.
@@ -100,7 +87,10 @@ class Across:
 
 
 class NearestSearch:
-    """The incremental form of ``nearest``, for positions (n, 3) that are added over time."""
+    """The nearest of all pairs of drones, whose positions (n, 3) are added over time.
+
+    limit : horizontal distance for ``ClosestPair.below``, metres
+    """
 
     def __init__(self, apart: Distances, limit: float) -> None:
         self._height = np.array([1.0, 1.0, stretch(apart)])

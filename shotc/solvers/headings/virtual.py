@@ -35,7 +35,7 @@ SOLVER_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Grid:
+class _KnotGrid:
     """Knots, with one in the middle of each interval, and the nominal headings at the samples.
 
     knots : shape (J,); at, piece, x : shape (M,), parameter of each sample, its piece, and the share within
@@ -65,14 +65,14 @@ def by_virtual(task: HeadingTask) -> Headings:
     return Headings(Status.SOLVED, angles, curve)
 
 
-def _grid(task: HeadingTask, near: Piecewise) -> _Grid:
+def _grid(task: HeadingTask, near: Piecewise) -> _KnotGrid:
     knots = subdivide(task.at, 2)
     at = subdivide(knots, SAMPLES_PER_PIECE)
     piece = np.clip(np.searchsorted(knots, at, side="right") - 1, 0, len(knots) - 2)
     x = (at - knots[piece]) / np.diff(knots)[piece]
     psi = near(at)[:, 0]
     along = np.column_stack([np.cos(psi), np.sin(psi)])
-    return _Grid(knots, at, piece, x, along, np.column_stack([-along[:, 1], along[:, 0]]))
+    return _KnotGrid(knots, at, piece, x, along, np.column_stack([-along[:, 1], along[:, 0]]))
 
 
 class _Solved(NamedTuple):
@@ -83,7 +83,7 @@ class _Solved(NamedTuple):
     slope: Array
 
 
-def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
+def _programme(task: HeadingTask, angles: Array, grid: _KnotGrid) -> _Solved:
     """Solve Eq. 11; return the values and slopes of s at the knots, each of shape (J, 2)."""
     knots, count = len(grid.knots), len(angles)
     pieces = knots - 1
@@ -127,7 +127,7 @@ def _keyframes(problem: ConeRows, task: HeadingTask, angles: Array, where: tuple
     problem.positive(np.full(count, FARTHEST_RADIUS), [(r, -np.ones(count))])
 
 
-def _bends(problem: ConeRows, grid: _Grid, bends: int) -> None:
+def _bends(problem: ConeRows, grid: _KnotGrid, bends: int) -> None:
     """Equate 4 unknowns a piece with s'', so that the sum of their squares is twice the integral in (11a)."""
     h = np.diff(grid.knots)
     pieces = len(h)
@@ -142,7 +142,7 @@ def _bends(problem: ConeRows, grid: _Grid, bends: int) -> None:
             problem.zero([*_terms(piece, weight, axis, knots), (column, -np.ones(pieces))])
 
 
-def _samples(grid: _Grid, order: int) -> tuple[IntArray, Array]:
+def _samples(grid: _KnotGrid, order: int) -> tuple[IntArray, Array]:
     return grid.piece, _weights(np.diff(grid.knots)[grid.piece], grid.x, order)
 
 

@@ -19,12 +19,12 @@ from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, FlownFleet, fly
-from shotc.simulation.fleets.near import nearest
+from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED
 from tests.experiments.papers.report import Table
+from tests.support.fleet_flights import FlownFleet, fly, nearest
 
 NEEDED = Apart("ellipsoid", 0.7, 0.8, 0.0)
 MARGINS = (0.0, 0.15, 0.45)
@@ -114,7 +114,7 @@ def flight(breaks: Array, coef: Array, case: Case) -> FlownFleet:
     if case.avoids:
         # A margin keeps the metric's shape only if it is scaled like the rest.
         room = NEEDED._replace(horizontal=0.7 + ROOM, vertical=(0.7 + ROOM) / stretch(NEEDED))
-        from shotc.simulation.fleets.avoid import Avoidance  # its library has few wheels
+        from tests.experiments.papers.avoid import Avoidance  # its library has few wheels
 
         avoid = Avoidance(room, SPEED, PERIOD_S)
     return fly(breaks, coef, FleetConditions(case.vehicle, gusts=Gusts(case.gusts), seed=6), avoid)

@@ -15,14 +15,14 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import FleetConditions, FlownFleet, fly
+from shotc.simulation.fleets.fly import FleetConditions
 from shotc.simulation.fleets.follow import Gains
-from shotc.simulation.fleets.near import nearest
 from shotc.simulation.fleets.vehicle import Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED, Limited, control_points
 from tests.experiments.papers.plots import png
 from tests.experiments.papers.report import Table
+from tests.support.fleet_flights import FlownFleet, fly, nearest
 
 PAPER_APART = Apart("ellipsoid", 0.7, 0.8, 0.0)
 """Two of the paper's drones, of radius 0.35 m and height 0.8 m."""

@@ -13,13 +13,13 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.camera import ScreenBox
-from shotc.identify.choice import as_printed
-from shotc.identify.cylinders import Upright, outside, printed
+from shotc.identify.cylinders import Upright
 from shotc.identify.find import Clustered, Glance, SearchResult, find
 from shotc.identify.pictures import picture
 from shotc.identify.saliency import SALIENCY
 from shotc.identify.tasks import DOUBTFUL_SHARE
 from tests.experiments.papers.identified_films import Filmed, films
+from tests.experiments.papers.printed_rules import as_printed, outside, printed
 from tests.experiments.papers.report import Section, Table
 from tests.support.cities import SHOWN, City, Drawn, one_surface, random_city, sloppy, some_keyframes
 

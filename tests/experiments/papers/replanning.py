@@ -19,11 +19,12 @@ from shotc.plugin_api.replanner import ChaseProblem, ChaseSituation, Plan
 from shotc.simulation.kalman import MotionModel, PositionFix
 from shotc.simulation.sensors import Gps
 from shotc.simulation.tracker import Tracker
-from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState, moved
+from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState
 from shotc.simulation.wind import WindField
 from tests.experiments.papers import reframing, two_anew, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.report import Section, Table, spread
+from tests.support.plant_steps import moved
 from tests.support.replans import BESIDE, DT, PLANT_S, TREE, WALK, problem, sampled, situation, zone
 
 SECONDS, EVERY = 20.0, 0.5

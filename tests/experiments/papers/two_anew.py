@@ -25,8 +25,9 @@ from shotc.plugin_api.replanner import (
     Replan,
     Traffic,
 )
-from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState, moved
+from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState
 from tests.experiments.papers.report import Table
+from tests.support.plant_steps import moved
 from tests.support.replans import DT, PLANT_S, WALK, sampled
 
 STAGES, EVERY, SECONDS, APPROACH = 80, 0.5, 20.0, 5.0

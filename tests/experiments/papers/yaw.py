@@ -12,13 +12,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from shotc.solvers.headings import METHODS
-from shotc.solvers.headings.measure import distance, effort
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import HeadingTask
 from tests.experiments.papers import nose
 from tests.experiments.papers.headings import SETTINGS, instances
 from tests.experiments.papers.plots import png
 from tests.experiments.papers.report import Table
+from tests.support.heading_measures import distance, effort
 
 MAIN, SIDE = 500, 250  # instances of uniform headings with roomy times, and of each other setting
 

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from pymavlink.dialects.v20 import common as mavlink
 
-from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleSetpoint, VehicleState, moved
+from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleSetpoint, VehicleState
+from tests.support.plant_steps import moved
 
 PX4, ARDUPILOT = 12, 3
 OFFBOARD, PX4_HOLD, PX4_LAND = 6 << 16, 4 << 16 | 3 << 24, 4 << 16 | 6 << 24

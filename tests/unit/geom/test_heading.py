@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis, quintic_hermite
-from shotc.geom.heading import _bounds, _Motion, sup_off_course
+from shotc.geom.heading import _bounds, _GroundMotion, sup_off_course
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.vec import wrapped
 
@@ -76,7 +76,7 @@ def test_the_bound_on_each_piece_holds(spread: float) -> None:
     v = np.einsum("tk,mkd->mtd", bernstein_basis(4, np.linspace(0.0, 1.0, 65)), velocity.ctrl)
     turned = np.einsum("tk,mk->mt", basis, heading.ctrl[:, :, 0])
     off = np.abs(wrapped(turned - np.arctan2(v[..., 1], v[..., 0])))
-    upper, middle = _bounds(_Motion(velocity, velocity.derivative(), heading, heading.derivative()))
+    upper, middle = _bounds(_GroundMotion(velocity, velocity.derivative(), heading, heading.derivative()))
     assert (upper >= off.max(axis=1) - 1e-9).all()
     assert middle == pytest.approx(off[:, 32], abs=1e-9)
 
@@ -96,7 +96,7 @@ def test_the_bound_holds_where_a_heading_leaves_the_course_of_a_curve(faster: fl
     heading = t + faster * (square - 2.0 * begin * t + begin**2)
     flown = Pieces(circle.low, circle.high, np.concatenate([circle.ctrl, heading[None, :, None]], axis=2))
     velocity, turning = flown.channels(0, 1).derivative(), flown.channels(2)
-    upper, _ = _bounds(_Motion(velocity, velocity.derivative(), turning, turning.derivative()))
+    upper, _ = _bounds(_GroundMotion(velocity, velocity.derivative(), turning, turning.derivative()))
     most = abs(faster) * (2.0 * half) ** 2
     assert most - 1e-6 <= upper[0] <= 1.6 * most
 
@@ -108,6 +108,6 @@ def test_the_bound_holds_where_a_course_turns_ever_faster_away_from_a_heading(si
     ctrl = np.column_stack([np.linspace(0.0, 1.0, 6), cube, np.zeros(6)])[None]
     flown = Pieces(np.zeros(1), np.ones(1), ctrl)
     velocity, heading = flown.channels(0, 1).derivative(), flown.channels(2)
-    upper, middle = _bounds(_Motion(velocity, velocity.derivative(), heading, heading.derivative()))
+    upper, middle = _bounds(_GroundMotion(velocity, velocity.derivative(), heading, heading.derivative()))
     assert np.arctan(0.3) <= upper[0] <= 1.5 * np.arctan(0.3)
     assert middle == pytest.approx([np.arctan(0.075)])

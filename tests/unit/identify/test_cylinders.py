@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.identify.cylinders import enclosing, least_circle, outside, printed
+from shotc.identify.cylinders import enclosing, least_circle
+from tests.experiments.papers.printed_rules import outside, printed
 
 
 def least(points: np.ndarray) -> float:

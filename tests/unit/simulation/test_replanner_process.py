@@ -80,7 +80,7 @@ def test_a_replanner_that_hangs_in_c_is_killed_and_asked_again_in_a_new_process(
 @pytest.mark.long
 def test_a_process_that_lost_its_parent_while_it_hangs_ends_itself():
     with child_process.started(serve.__module__, serve.__name__) as process:
-        order = replanner_process._Order(0, problem(STAGES), situation(STAGES), still())
+        order = replanner_process._ReplanRequest(0, problem(STAGES), situation(STAGES), still())
         for part in (child_process.module_path(), pickle.dumps((f"{FAILING}:HANGS", 0.2))):
             process.stdin.write(part)
         process.stdin.write(pickle.dumps(order))

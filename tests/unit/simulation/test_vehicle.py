@@ -8,9 +8,9 @@ from shotc.simulation.vehicle import (
     VehicleSetpoint,
     VehicleState,
     braked,
-    moved,
     within,
 )
+from tests.support.plant_steps import moved
 
 STILL = np.zeros((1, 3))
 

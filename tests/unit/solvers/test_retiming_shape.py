@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shotc.solvers.retiming_socp import Iterate, NormLimit, _Model, _Shape, cell_times, start_from, triangular
+from shotc.solvers.retiming_socp import Iterate, NormLimit, _Model, _SpeedShape, cell_times, start_from, triangular
 
 
 class Motion:
@@ -29,8 +29,8 @@ class Motion:
         t, v, a, j = x * self.times, self.v[:-1], self.a[:-1], self.jerks
         return v * t + a * t**2 / 2 + j * t**3 / 6, v + a * t + j * t**2 / 2, a + j * t
 
-    def shape(self) -> _Shape:
-        return _Shape(self.widths, Iterate(self.v**2, self.a))
+    def shape(self) -> _SpeedShape:
+        return _SpeedShape(self.widths, Iterate(self.v**2, self.a))
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -205,7 +205,7 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     square = np.concatenate([states.ravel(), bend, narrow])
     states[:, VALUE] = -drawn * task.reference
     linear = np.concatenate([states.ravel(), np.zeros(n + n + 1)])
-    rows = _Rows(n)
+    rows = _Unknowns(n)
     low, high = lens_bounds(subject.drone, task.given)
     assert subject.drone.lens is not None
     rate = NEARLY_SHARE * subject.drone.lens.rate
@@ -239,7 +239,7 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     return solution
 
 
-class _Rows:
+class _Unknowns:
     """The order of the unknowns: three states a node, then an input a stage, then a slack a node."""
 
     def __init__(self, stages: int) -> None:

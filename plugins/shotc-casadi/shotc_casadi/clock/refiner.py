@@ -10,7 +10,6 @@ import numpy as np
 
 from shotc.plugin_api import (
     Diagnostic,
-    PassContext,
     PathIR,
     SolverState,
     unrefined,
@@ -47,22 +46,6 @@ WHOLE = "the whole subject in the frame, and the drone's limits"
 SAME_S = 2.0  # seconds: a deviation this close to one of the guide has the same cause
 
 
-def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
-    """Return the path with its shots on their own clock refined, each clear of those before it.
-
-    A shot that cannot be refined keeps its guide; an error says why.
-
-    name : of the refiner
-    """
-    diagnostics: list[Diagnostic] = []
-    legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, ClockLeg)]
-    for shot in [leg.shot for leg in legs]:
-        ctx.progress(f"refine shot {shot}")
-        path, messages = refine_one(path, shot, name)
-        diagnostics += messages
-    return path, tuple(diagnostics)
-
-
 def refine_one(
     path: PathIR, shot: str, name: str, *, keeps_whole: bool = True
 ) -> tuple[PathIR, list[Diagnostic]]:
@@ -85,7 +68,7 @@ def refine_one(
     return replace(tried.path, stats=stats), [] if message is None else [message]
 
 
-class _Tried(NamedTuple):
+class _RefinedShot(NamedTuple):
     """A shot refined: the path with it, or why it does not change.
 
     said : a diagnostic of its solver; given_up : whether a better refinement is not used because it would
@@ -99,7 +82,9 @@ class _Tried(NamedTuple):
     given_up: bool
 
 
-def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keeps_whole: bool) -> _Tried:
+def _tried(
+    path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keeps_whole: bool
+) -> _RefinedShot:
     """Return a shot refined; unseen : whether it has to keep the drones' pictures free."""
     refined = refine_clock(subject, unseen=unseen)
     message = _report(path, subject, refined, name)
@@ -114,7 +99,7 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keep
     first = next((one for one, _ in reasons if one is not None and one.leg is not None), None)
     taken, moved = _taken(path, reasons, unseen=unseen)
     given_up = taken is not first
-    return _Tried(
+    return _RefinedShot(
         taken or replace(refined, leg=None), moved, IN_PICTURE if given_up else why, message, given_up
     )
 

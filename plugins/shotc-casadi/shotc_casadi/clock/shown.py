@@ -24,7 +24,7 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.occluders import farthest_past, occluders_of
 from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.covered import GAIN_SHARE, Free, broken, free_of, lost
+from shotc_casadi.covered import GAIN_SHARE, UncoveredShare, broken, free_of, lost
 
 RATE_HZ = 25.0  # frames a second that are evaluated
 SLACK_SHARE = 1e-4  # tolerance, of a size, of half a frame, of the number of frames
@@ -39,14 +39,14 @@ class SubjectVisibility(NamedTuple):
     off : its largest distance from its place on screen, half frames
     """
 
-    free: Free
+    free: UncoveredShare
     cropped: float
     smallest: float
     largest: float
     off: float
 
 
-FLAWLESS = SubjectVisibility(Free(), 0.0, inf, 0.0, 0.0)
+FLAWLESS = SubjectVisibility(UncoveredShare(), 0.0, inf, 0.0, 0.0)
 """With what is shown so no promise is broken."""
 
 

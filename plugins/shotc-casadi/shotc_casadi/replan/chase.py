@@ -16,7 +16,7 @@ import numpy as np
 
 from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan, Replan
 from shotc_casadi.clock.angles import rates
-from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
+from shotc_casadi.replan.evaluation import HorizonFunctions, Prices, StageExpressions, horizon
 from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, StopRule
@@ -77,7 +77,7 @@ class ShotChase:
 
 
 @lru_cache(maxsize=32)
-def _horizon(of: RowCounts, stages: int) -> Horizon:
+def _horizon(of: RowCounts, stages: int) -> HorizonFunctions:
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
     p, g = ca.SX.sym("p", STAGE_PARAMETERS + of.each), ca.SX.sym("g", SHARED_PARAMETERS + of.common)
     effort, pitch, yaw, height, end = ca.vertsplit(g[:5])

@@ -66,7 +66,7 @@ class Prices(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Horizon:
+class HorizonFunctions:
     """Functions of N stages with U inputs, X states and P parameters each, and G common parameters."""
 
     motion: Any
@@ -91,7 +91,7 @@ class Rollout(NamedTuple):
     worst: float
 
 
-def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
+def horizon(stage: StageExpressions, stages: int, prices: Prices) -> HorizonFunctions:
     """Return the functions of that many stages."""
     s, n = stage, stages
     u, x0 = ca.MX.sym("u", s.u.numel(), n), ca.MX.sym("x0", s.x.numel())
@@ -125,7 +125,7 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
     ]
     given = [u, x0, p, g]
     functions = ca.Function("motion", given, motion), ca.Function("step", given, [*motion, *step])
-    return Horizon(*functions, laid, prices, n, s.u.numel(), s.x.numel())
+    return HorizonFunctions(*functions, laid, prices, n, s.u.numel(), s.x.numel())
 
 
 class Evaluation:
@@ -138,7 +138,7 @@ class Evaluation:
     of the step.
     """
 
-    def __init__(self, of: Horizon) -> None:
+    def __init__(self, of: HorizonFunctions) -> None:
         """Allocate memory."""
         self.of = of
         self._inputs = np.zeros((of.stages, of.inputs))

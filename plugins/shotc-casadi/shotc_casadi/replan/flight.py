@@ -11,6 +11,7 @@ from shotc.plugin_api.replanner import (
     NO_TRAFFIC,
     NO_WALLS,
     Array,
+    Horizon,
     Keeping,
     Plan,
     Replan,
@@ -18,8 +19,7 @@ from shotc.plugin_api.replanner import (
     Traffic,
     Walls,
 )
-from shotc.plugin_api.replanner import Horizon as Ahead
-from shotc_casadi.replan.evaluation import Horizon
+from shotc_casadi.replan.evaluation import HorizonFunctions
 from shotc_casadi.replan.keeping import RowCounts, StaticObstacles, common, each, kept
 from shotc_casadi.replan.steps import Solver, Walk
 
@@ -40,8 +40,8 @@ class ShotSolvers:
     def __init__(
         self,
         keeping: Keeping,
-        ahead: Ahead,
-        made: Callable[[RowCounts], Horizon],
+        ahead: Horizon,
+        made: Callable[[RowCounts], HorizonFunctions],
         begun: Callable[[Solver], None],
     ) -> None:
         """Make the solver of a shot without traffic.

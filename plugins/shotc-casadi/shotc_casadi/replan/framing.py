@@ -25,7 +25,7 @@ from shotc.plugin_api.replanner import (
     Plan,
     Replan,
 )
-from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
+from shotc_casadi.replan.evaluation import HorizonFunctions, Prices, StageExpressions, horizon
 from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, rows, within
 from shotc_casadi.replan.pictures import (
@@ -151,7 +151,7 @@ def _shifted(index: Array, last: Plan) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _horizon(of: RowCounts, cast: Cast, stages: int) -> Horizon:
+def _horizon(of: RowCounts, cast: Cast, stages: int) -> HorizonFunctions:
     return horizon(stage(of, cast), stages, PRICES)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import piqp
 
 from shotc.plugin_api.replanner import Array
-from shotc_casadi.replan.evaluation import Evaluation, Horizon, Rollout
+from shotc_casadi.replan.evaluation import Evaluation, HorizonFunctions, Rollout
 
 SHORTER_RATIO = 0.4
 MOST_TRIES = 5
@@ -46,7 +46,7 @@ class Walk(NamedTuple):
 class Solver:
     """Takes steps over one horizon; only one thread may use it at a time."""
 
-    def __init__(self, of: Horizon) -> None:
+    def __init__(self, of: HorizonFunctions) -> None:
         """Allocate memory."""
         self.evaluation = Evaluation(of)
         cost, self._linear, motion, bound, self._rows, self._low, self._high = self.evaluation.programme

@@ -98,21 +98,21 @@ def _shows_beyond(mission: MissionIR) -> Iterator[Diagnostic]:
         yield from check_show_covered(mission)
 
 
-class _Beside(NamedTuple):
+class _MeshFaults(NamedTuple):
     """Faults beside scenes and buildings: of homes, and of places of shots with their key paths."""
 
     homes: tuple[Diagnostic, ...] = ()
     places: tuple[tuple[Shot, KeyPath, Diagnostic], ...] = ()
 
 
-def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _Beside:
+def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _MeshFaults:
     if not mission.meshes:
-        return _Beside()
+        return _MeshFaults()
     from shotc.passes.resolve.checks.beside_meshes import check_homes_beside, check_shot_beside
 
     faults = ((shot, check_shot_beside(mission, shot, film)) for shot, film in filmed)
     places = tuple((shot, path, d) for shot, diagnosed in faults for path, d in diagnosed)
-    return _Beside(tuple(check_homes_beside(mission)), places)
+    return _MeshFaults(tuple(check_homes_beside(mission)), places)
 
 
 def _shows_beside_meshes(mission: MissionIR) -> Iterator[Diagnostic]:

@@ -24,7 +24,7 @@ RIM_PLACES = 16  # samples of a rim
 SIDE_PLACES = 8  # samples of a side
 
 
-class _Counted(NamedTuple):
+class _RaisedElement(NamedTuple):
     """An element with a height above ground: its name, its key path, and its places."""
 
     words: str
@@ -60,17 +60,17 @@ def _beyond(terrain: Terrain, places: Iterable[Vec2]) -> Iterator[tuple[float, V
             yield terrain.beyond(x, y), (x, y)
 
 
-def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[_Counted]:
+def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[_RaisedElement]:
     for target in mission.targets:
         written, words = spec.targets[str(target.path[1])], f"target `{target.name}`"
         for key, place in _written(written):
             if counts_from_ground(place):
                 x, y, _ = placed(mission.origin, flat, place)
-                yield _Counted(words, (*target.path, *key), ((x, y),))
+                yield _RaisedElement(words, (*target.path, *key), ((x, y),))
         if target.name in level and target.track is not None:
             places = tuple((x, y) for x, y, _ in target.track.points)
             of_file = written.track is not None and written.track.file is not None
-            yield _Counted(words, (*target.path, "track", "file" if of_file else "lift"), places)
+            yield _RaisedElement(words, (*target.path, "track", "file" if of_file else "lift"), places)
 
 
 def _written(target: TargetSpec) -> Iterator[tuple[KeyPath, Place]]:
@@ -85,20 +85,20 @@ def _written(target: TargetSpec) -> Iterator[tuple[KeyPath, Place]]:
         yield ("track", "points", i), point
 
 
-def _zones(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
+def _zones(mission: MissionIR, spec: MissionSpec) -> Iterator[_RaisedElement]:
     for zone in mission.zones:
         if zone_counts_from_ground(spec.world.zones[zone.name]):
-            yield _Counted(f"zone `{zone.name}`", zone.path, tuple(_footprint(zone.solid)))
+            yield _RaisedElement(f"zone `{zone.name}`", zone.path, tuple(_footprint(zone.solid)))
 
 
-def _audience(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
+def _audience(mission: MissionIR, spec: MissionSpec) -> Iterator[_RaisedElement]:
     """Yield the viewpoints of displays; pictures and pads without ground leave the terrain anyway."""
     viewpoints = {shot.id: getattr(shot, "viewpoint", None) for shot in spec.shots}
     for display in mission.displays:
         written = viewpoints.get(display.id)
         if display.viewpoint is not None and written is not None and counts_from_ground(written):
             x, y, _ = display.viewpoint
-            yield _Counted(f"the viewpoint of `{display.id}`", (*display.path, "viewpoint"), ((x, y),))
+            yield _RaisedElement(f"the viewpoint of `{display.id}`", (*display.path, "viewpoint"), ((x, y),))
 
 
 def _footprint(solid: Solid) -> Iterator[Vec2]:

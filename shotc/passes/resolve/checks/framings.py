@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import asin, degrees, dist, hypot, isnan
-from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
@@ -238,15 +237,6 @@ def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyP
         if path in mission.origins.values:
             return path
     return subject.path
-
-
-class WorstFraming(NamedTuple):
-    """The largest errors of one subject over a framing in place, size and view, with their times."""
-
-    screen: tuple[float, float]
-    size: tuple[float, float, float]
-    angle: tuple[float, float]
-    out: tuple[float, float]
 
 
 def _together(mission: MissionIR, course: StartedFraming, advise: bool) -> Iterator[Diagnostic]:

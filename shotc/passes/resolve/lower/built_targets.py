@@ -20,7 +20,7 @@ MOST_BODIES = 8
 _LISTED_NAMES = 5  # names in a diagnostic
 
 
-class _Named(NamedTuple):
+class _Candidate(NamedTuple):
     """A candidate of a target: a building, a part of one, or a part of a scene.
 
     called : its name and its ids
@@ -78,17 +78,17 @@ def bodies_of_building(
 _COVER = "take an elevation model that covers it"
 
 
-def _candidates(name: str, standing: Obstacles) -> list[_Named]:
+def _candidates(name: str, standing: Obstacles) -> list[_Candidate]:
     """Return the candidates with a name; if a building and a part of it have it, only the building."""
     matching = [named for named in _all(standing) if name in named.called]
-    largest: list[_Named] = []
+    largest: list[_Candidate] = []
     for named in sorted(matching, key=lambda n: -len(n.own)):
         if not any(named.mesh is other.mesh and named.own <= other.own for other in largest):
             largest.append(named)
     return largest
 
 
-def _all(standing: Obstacles) -> Iterator[_Named]:
+def _all(standing: Obstacles) -> Iterator[_Candidate]:
     """Yield all candidates."""
     called: dict[int, tuple[str, ...]] = {}
     own: dict[int, list[int]] = {}
@@ -96,13 +96,13 @@ def _all(standing: Obstacles) -> Iterator[_Named]:
         for feature in house.features:
             called[feature.number] = feature.called
             own.setdefault(feature.number, []).append(i)
-    yield from (_Named(called[number], frozenset(houses)) for number, houses in own.items())
+    yield from (_Candidate(called[number], frozenset(houses)) for number, houses in own.items())
     for mesh in standing.meshes:
         if mesh.kind == "scene":
-            yield from (_Named((name,), frozenset([i]), mesh) for i, name in enumerate(mesh.names))
+            yield from (_Candidate((name,), frozenset([i]), mesh) for i, name in enumerate(mesh.names))
 
 
-def _ambiguous(building: str, matching: list[_Named], standing: Obstacles) -> Diagnostic:
+def _ambiguous(building: str, matching: list[_Candidate], standing: Obstacles) -> Diagnostic:
     notes = tuple(named.described(building, standing) for named in matching[:_LISTED_NAMES])
     others = [name for named in matching for name in named.called if name != building]
     help_ = f"write `building: {others[0]}` if that one is meant" if others else "give each a name of its own"

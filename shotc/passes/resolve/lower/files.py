@@ -1,7 +1,6 @@
 """Reading the files that a mission names, all of them within the mission's folder."""
 
 import re
-from collections.abc import Callable
 from fnmatch import translate
 from hashlib import sha256
 from pathlib import Path
@@ -18,7 +17,6 @@ from shotc.spec.words import closest
 
 MOST_FILES = 5_000  # frames of an animation
 _WILD = "*?"
-Read = Callable[[str, KeyPath], bytes | Diagnostic]
 NOT_KEPT = "plan the mission again: a plan keeps every file that its mission reads"
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
 

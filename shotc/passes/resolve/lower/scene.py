@@ -81,7 +81,7 @@ def scene_mesh(
     if isinstance(fault, ModelFault):
         return Obstacles(faults=(_unusable(written, fault, files),))
     assert isinstance(parts, list)
-    scene = _Scene(written, placed, at, files)
+    scene = _PlacedScene(written, placed, at, files)
     wrong = next(iter((*scene.of_no_size(parts), *scene.inexact(data, parts), *scene.away(parts))), None)
     if wrong is not None:
         return Obstacles(faults=(wrong,))
@@ -98,7 +98,7 @@ def _unusable(written: SceneSpec, fault: ModelFault, files: Files) -> Diagnostic
     return bad_file(files.origins, SCENE, written.file, FileFault(fault.message, fault.line, fault.help))
 
 
-class _Scene(NamedTuple):
+class _PlacedScene(NamedTuple):
     """A scene as written, and its position."""
 
     written: SceneSpec

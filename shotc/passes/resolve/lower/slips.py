@@ -26,7 +26,7 @@ TENTHS_PER_DEG = 10.0  # a position in degrees has more than one decimal, which 
 MOST_REPORTED = 10  # most warnings of one mission
 
 
-class _Written(NamedTuple):
+class _WrittenPosition(NamedTuple):
     """A position in metres, as its field reads it, and its key path."""
 
     path: KeyPath
@@ -57,7 +57,7 @@ def _looks_like_degrees(origin: GeoOrigin, lat: float, lon: float) -> bool:
     return any(abs(TENTHS_PER_DEG * value - round(TENTHS_PER_DEG * value)) > 1e-6 for value in (lat, lon))
 
 
-def _slip(written: _Written, place: Vec2, origin: GeoOrigin, origins: OriginMap) -> Diagnostic:
+def _slip(written: _WrittenPosition, place: Vec2, origin: GeoOrigin, origins: OriginMap) -> Diagnostic:
     x, y = written.place[:2]
     base = (origin.lat_deg, origin.lon_deg, 0.0)
     distance = hypot(*to_world((*place, 0.0), base)[:2])
@@ -88,7 +88,7 @@ def _height(place: tuple[Any, ...]) -> str:
     return "" if height.stands else f"{{above: ground, height: {height.height:.10g}}}"
 
 
-def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_Written]:
+def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_WrittenPosition]:
     """Yield the positions in metres within a value; place : whether its field contains positions."""
     if isinstance(value, BaseModel):
         for name, field in type(value).model_fields.items():
@@ -99,7 +99,7 @@ def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_W
             yield from _in_metres(item, (*path, key), place=place)
     elif isinstance(value, list | tuple):
         if place and value and isinstance(value[0], int | float):
-            yield _Written(path, tuple(value))
+            yield _WrittenPosition(path, tuple(value))
             return
         for i, item in enumerate(value):
             yield from _in_metres(item, (*path, i), place=place)

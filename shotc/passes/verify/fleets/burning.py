@@ -32,7 +32,7 @@ GROUND = "the ground"
 
 
 @dataclass(frozen=True, slots=True)
-class Near:
+class NearestToProduct:
     """The least distance from what is around of the drones with one product, while it burns.
 
     drone : the row of the drone that has it; position : where that is then, metres; None where it is not told
@@ -44,7 +44,9 @@ class Near:
     position: Vec3 | None = None
 
 
-def near_surfaces(flight: FleetFlight, rows: Sequence[int], span: Span, least: float) -> Iterator[Near]:
+def near_surfaces(
+    flight: FleetFlight, rows: Sequence[int], span: Span, least: float
+) -> Iterator[NearestToProduct]:
     """Yield the least distances of drones from the ground, and from the meshes of the mission.
 
     rows : of the drones in the fleet; span : while their products burn in the air, s
@@ -76,11 +78,13 @@ def sampled_distances(flight: FleetFlight, p: Array) -> Array:
     return np.asarray(np.min(distances, axis=0))
 
 
-def _over_flat_ground(burning: FleetPieces, rows: Sequence[int]) -> Near:
+def _over_flat_ground(burning: FleetPieces, rows: Sequence[int]) -> NearestToProduct:
     heights = burning.ctrl[..., 2].min(axis=2)
     drone, lowest = np.unravel_index(int(heights.argmin()), heights.shape)
     height = float(heights[drone, lowest])
-    return Near(GROUND, ProvedExtreme(height, height, float(burning.low[lowest])), rows[int(drone)])
+    return NearestToProduct(
+        GROUND, ProvedExtreme(height, height, float(burning.low[lowest])), rows[int(drone)]
+    )
 
 
 def _of_terrain(burning: FleetPieces, terrain: Terrain, least: float) -> ProvedExtreme:
@@ -99,10 +103,10 @@ def _from_terrain(terrain: Terrain, p: Array) -> Array:
 
 def _nearest_drone(
     flight: FleetFlight, rows: Sequence[int], of: tuple[str, ProvedExtreme], value: Callable[[Array], Array]
-) -> Near:
+) -> NearestToProduct:
     """Return a bound with the drone that has it, which a function from positions to distances finds."""
     what, bound = of
     at = flight.at(bound.at)[list(rows)]
     worst = int(np.argmin(value(at)))
     x, y, z = (float(c) for c in at[worst])
-    return Near(what, bound, rows[worst], (x, y, z))
+    return NearestToProduct(what, bound, rows[worst], (x, y, z))

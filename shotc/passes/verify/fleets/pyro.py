@@ -18,7 +18,7 @@ from shotc.ir.parked import bodies, parked_fleets
 from shotc.ir.show import Display, Fleet, PyroCue, drone_names, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, WorstValue, held
-from shotc.passes.verify.fleets.burning import PYRO, Near, near_surfaces
+from shotc.passes.verify.fleets.burning import PYRO, NearestToProduct, near_surfaces
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
@@ -131,11 +131,11 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     if span[0] >= span[1]:
         return
     rows = rows_of(flight.fleet, cue)
-    near: dict[str, Near] = {}
+    near: dict[str, NearestToProduct] = {}
     for row in rows:
         for what, bound in _distances(ir, flights, burns, row, span):
             if what not in near or bound.proven < near[what].bound.proven:
-                near[what] = Near(what, bound, row)
+                near[what] = NearestToProduct(what, bound, row)
     for approach in (*near.values(), *near_surfaces(flight, rows, span, cue.clear)):
         name, key = f"{burns.name} from {approach.what}", (*cue.path, "clear")
         limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)

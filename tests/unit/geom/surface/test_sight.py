@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.surface import sight
-from shotc.geom.surface.boards import Billboards, billboards, cells_of, facing_cylinders, upright
+from shotc.geom.surface.boards import Billboards, billboards, cells_of, upright
 from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
@@ -24,6 +24,15 @@ def rectangle(y: float, x: tuple[float, float], z: tuple[float, float]) -> np.nd
 def north(distance: float = 20.0, size: float = 2.0) -> Billboards:
     """A square to the North of the origin, at the height of the eye."""
     return billboards(np.zeros((1, 3)), np.array([[0.0, distance, 0.0]]), size, size)
+
+
+def facing_cylinders(eye: np.ndarray, centre: np.ndarray, radius: float, height: float) -> Billboards:
+    """Return the least rectangles around the outlines of upright cylinders at centres (F, 3) from afar."""
+    away = centre - eye
+    far = np.maximum(np.linalg.norm(away, axis=1), 1e-300)
+    upright = np.hypot(away[:, 0], away[:, 1]) / far
+    shown = height * upright + 2.0 * radius * np.abs(away[:, 2]) / far
+    return billboards(eye, centre, 2.0 * radius, shown)
 
 
 def rays(boards: Billboards, n: int) -> np.ndarray:

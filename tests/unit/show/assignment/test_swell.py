@@ -22,7 +22,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.show.assignment import AssignGoals
 from shotc.show.assignment.swell import Heights, led
-from shotc.show.geom.arcs import Free, Gaps
+from shotc.show.geom.arcs import FreeRegion, Gaps
 from shotc.show.geom.least_size import least_size
 from shotc.show.goals import PlaceGoals
 from shotc.show.goals.room import DisplaySurroundings
@@ -41,7 +41,7 @@ def ends_of(seed: int) -> tuple[Array, Array]:
     return shapes[0] + rng.normal(size=3) * 20.0, shapes[1] + rng.normal(size=3) * 20.0
 
 
-def about(ends: tuple[Array, Array], free: Free = TIGHT) -> Callable[[Array], ArcMove]:
+def about(ends: tuple[Array, Array], free: FreeRegion = TIGHT) -> Callable[[Array], ArcMove]:
     return lambda pivot: fastest_arc(ends, pivot, free, LIMITS, 1.0)
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Apart
-from shotc.simulation.fleets.near import Across, nearest
+from shotc.simulation.fleets.near import Across
+from tests.support.fleet_flights import nearest
 
 BALL = Apart("ellipsoid", 1.0, 1.0, 0.0)
 SPLIT = 20

@@ -12,9 +12,9 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT, METHODS
 from shotc.solvers.headings.bounded_cubic import bounded_cubic
 from shotc.solvers.headings.energy import cubic, energy
-from shotc.solvers.headings.measure import distance, effort
 from shotc.solvers.headings.solve import SOLVERS, solve_headings
 from shotc.solvers.headings.task import HeadingTask, nearest_turns
+from tests.support.heading_measures import distance, effort
 
 YAWS = st.lists(st.floats(-pi, pi), min_size=2, max_size=7)
 RATE, ACCELERATION = 1.5, 2.0

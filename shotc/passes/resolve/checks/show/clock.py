@@ -117,7 +117,7 @@ class _Drive(NamedTuple):
         )
 
 
-class _Late(NamedTuple):
+class _EarlyPicture(NamedTuple):
     """A picture whose time is before its earliest one; earliest : seconds."""
 
     picture: Picture
@@ -125,13 +125,13 @@ class _Late(NamedTuple):
     earliest: float
 
 
-def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[_Late]]:
+def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[_EarlyPicture]]:
     """Return the earliest end of a display that begins at a time, and its pictures that are late."""
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
         clock += _stand(before) + _change(bounds(before.source), after, _Drive(limits, display.pace))
         if after.at is not None and after.at < clock - ROUNDING_S:
-            late.append(_Late(after, before, clock))
+            late.append(_EarlyPicture(after, before, clock))
         clock = max(clock, after.at or 0.0)
     return clock + _stand(display.pictures[-1]), late
 
@@ -273,7 +273,7 @@ def _early(mission: MissionIR, display: Display, last: _Free, there: float, wait
     return Diagnostic("D020", message, (label,), (why,), help_)
 
 
-def _late(mission: MissionIR, late: _Late) -> Diagnostic:
+def _late(mission: MissionIR, late: _EarlyPicture) -> Diagnostic:
     origins, earliest = mission.origins, at_least(late.earliest, 1)
     return Diagnostic(
         "D123",

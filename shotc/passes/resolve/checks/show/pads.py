@@ -116,12 +116,12 @@ def _needed(apart: Apart) -> str:
     return f"{apart.across:.2f} m side by side{margin}"
 
 
-def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
+def _layout(mission: MissionIR, fleet: Fleet) -> Label:
     """Return a label on the number, or the file, that determines the distance of pads."""
     path = (*fleet.path, "layout")
     keys = (("grid", "spacing"), ("circle", "radius"), ("file",))
     written = ((*path, *key) for key in keys if (*path, *key) in mission.origins.values)
-    return mission.origins.value(next(written, path), text)
+    return mission.origins.value(next(written, path))
 
 
 def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:

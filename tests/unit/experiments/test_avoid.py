@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Apart
-from shotc.simulation.fleets.near import nearest
+from tests.support.fleet_flights import nearest
 
 pytest.importorskip("rvo23d")
-from shotc.simulation.fleets.avoid import Avoidance
+from tests.experiments.papers.avoid import Avoidance
 
 
 def flown(start, wanted, apart, seconds=10.0):
