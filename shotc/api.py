@@ -276,16 +276,16 @@ def emit_plan(
     ]
     emitters = tuple(known.plugins[n] for n in emitter_names if n in known.plugins)
     emitters = emitters if saved else (PLAN_JSON, *emitters)
-    for emitter, made in zip(emitters, (crew or emission.ALONE).emit(plan, emitters), strict=True):
-        if not isinstance(made, Emission):
-            diagnostics.append(_not_made(emitter.name, made, code))
+    for emitter, emitted in zip(emitters, (crew or emission.ALONE).emit(plan, emitters), strict=True):
+        if not isinstance(emitted, Emission):
+            diagnostics.append(_not_made(emitter.name, emitted, code))
             continue
-        if saved and names is not None and not made.artifacts:
-            diagnostics.append(_nothing_made(emitter.name, made))
+        if saved and names is not None and not emitted.artifacts:
+            diagnostics.append(_nothing_made(emitter.name, emitted))
             continue
-        artifacts.extend(made.artifacts)
-        diagnostics.extend(made.diagnostics)
-        notes.extend(made.notes)
+        artifacts.extend(emitted.artifacts)
+        diagnostics.extend(emitted.diagnostics)
+        notes.extend(emitted.notes)
     if names is None:
         notes += _large(plan, emitter_names)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
@@ -302,14 +302,14 @@ def _large(plan: VerifiedIR, emitter_names: Collection[str]) -> Iterator[str]:
         )
 
 
-def _nothing_made(name: str, made: Emission) -> Diagnostic:
+def _nothing_made(name: str, emitted: Emission) -> Diagnostic:
     """Return the error of an output that was requested by name and has no file for this plan.
 
     It takes the place of the emitter's own diagnostics, which are its reasons.
     """
-    reasons = (*(text for d in made.diagnostics for text in (d.message, *d.notes)), *made.notes)
-    labels = tuple(label for d in made.diagnostics for label in d.labels)
-    help_ = next((d.help for d in made.diagnostics if d.help), "leave it out of `--emit`")
+    reasons = (*(text for d in emitted.diagnostics for text in (d.message, *d.notes)), *emitted.notes)
+    labels = tuple(label for d in emitted.diagnostics for label in d.labels)
+    help_ = next((d.help for d in emitted.diagnostics if d.help), "leave it out of `--emit`")
     return Diagnostic("E114", f"output `{name}` has no file for this plan", labels, reasons, help_)
 
 

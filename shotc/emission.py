@@ -76,11 +76,11 @@ class EmitterPool:
             with suppress(OSError):  # a dead worker is noticed by its missing result
                 work.plan.send((plan, names))
         forked = {name for work in busy for name in work.names}
-        made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in forked}
+        outcomes: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in forked}
         for work in busy:
             with suppress(Exception):  # without a worker's result this process makes the files, or fails
-                made |= work.made.result()
-        return [made[e.name] if e.name in made else _outcome(e, plan) for e in emitters]
+                outcomes |= work.made.result()
+        return [outcomes[e.name] if e.name in outcomes else _outcome(e, plan) for e in emitters]
 
 
 class _Work(NamedTuple):
@@ -149,11 +149,11 @@ def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:
     return _wrong(emission) or emission
 
 
-def _wrong(made: Any) -> str:
+def _wrong(result: Any) -> str:
     """Return the fault of an emitter's result, an empty text if there is none."""
-    if not isinstance(made, Emission):
-        return f"returned a {type(made).__name__}, not an Emission"
-    artifacts: Any = made.artifacts
+    if not isinstance(result, Emission):
+        return f"returned a {type(result).__name__}, not an Emission"
+    artifacts: Any = result.artifacts
     for artifact in artifacts:
         if not isinstance(artifact, Artifact) or not isinstance(artifact.data, bytes):
             return "returned something else than Artifacts of bytes"

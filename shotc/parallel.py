@@ -76,10 +76,10 @@ def pool_of(
     others = set(active_children())
     context = get_context("fork" if sys.platform == "linux" else "spawn")
     pool = ProcessPoolExecutor(workers, context, _begin, (begin, given))
-    done = False
+    finished = False
     try:
         yield pool
-        done = True
+        finished = True
     finally:
         with uninterrupted():
             mine = set(active_children()) - others
@@ -89,7 +89,7 @@ def pool_of(
                 worker.join(GONE_S)
             # A worker that is killed while it sends a result leaves a part of it in the pipe. The thread that
             # reads results then waits forever, so we do not wait for that thread.
-            pool.shutdown(wait=done)
+            pool.shutdown(wait=finished)
 
 
 @contextmanager

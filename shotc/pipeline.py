@@ -195,12 +195,14 @@ def run_refined(
     return _accounted(flown, seat, (convex, convex))
 
 
-def _with_convex(done: PipelineRun, later: Sequence[AnyPass], convex: Any, ctx: PassContext) -> PipelineRun:
+def _with_convex(
+    refused: PipelineRun, later: Sequence[AnyPass], convex: Any, ctx: PassContext
+) -> PipelineRun:
     """Return a run that ends at the refiner, with errors that state the result of the convex path."""
     from shotc.passes.refine_path import with_convex
 
     judged = run(later, convex, ctx)
-    return done._replace(diagnostics=with_convex(convex, done.diagnostics, judged.diagnostics))
+    return refused._replace(diagnostics=with_convex(convex, refused.diagnostics, judged.diagnostics))
 
 
 def _accounted(done: PipelineRun, seat: Any, paths: tuple[Any, Any]) -> PipelineRun:

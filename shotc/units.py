@@ -283,12 +283,12 @@ def _without_unit(number: str, dimension: Dimension) -> QuantityError:
     )
 
 
-def _bounded(value: float, dimension: Dimension, shown: str) -> float:
+def _bounded(value: float, dimension: Dimension, text: str) -> float:
     if not (isfinite(value) and abs(value) <= LARGEST[dimension]):
         unit = _unit(dimension, "rad")
         raise QuantityError(
             "absurd-value",
-            f"`{clip(shown)}` is no usable {dimension}",
+            f"`{clip(text)}` is no usable {dimension}",
             f"a {dimension} is a finite number of at most {LARGEST[dimension]:g} {unit}",
         )
     return value

@@ -39,12 +39,12 @@ class Record:
         """Return the recorded entries by the key of their job."""
         return {entry["key"]: entry for entry in self.file.entries()}
 
-    def add(self, job: Job, made: Planned) -> None:
+    def add(self, job: Job, planned: Planned) -> None:
         """Record a mission whose files are written."""
         entry = {
-            "outcome": made.outcome._asdict(),
-            "read": made.read,
-            "written": [(each.name, _sha256(each)) for each in made.artifacts],
+            "outcome": planned.outcome._asdict(),
+            "read": planned.read,
+            "written": [(each.name, _sha256(each)) for each in planned.artifacts],
         }
         self.file.add(key_of(job), entry)
 

@@ -134,17 +134,17 @@ def _smoothing(name: str) -> float:
     return seconds
 
 
-def _shown(done: Report) -> Comparison:
+def _shown(report: Report) -> Comparison:
     """Return the comparison if it has a plan to show; otherwise report why not, and exit."""
-    comparison = done.comparison
+    comparison = report.comparison
     if comparison is not None and any(each.plan is not None for each in comparison.conditions):
         return comparison
-    if comparison is None and not has_errors(done.diagnostics):
+    if comparison is None and not has_errors(report.diagnostics):
         raise typer.BadParameter(
             "no camera films in it, and refiners change nothing else", param_hint="MISSION"
         )
     faults = () if comparison is None else (fault for each in comparison.conditions for fault in each.faults)
-    console.report((*done.diagnostics, *faults), done.sources)
+    console.report((*report.diagnostics, *faults), report.sources)
     raise typer.Exit(console.EXIT_REJECTED)
 
 

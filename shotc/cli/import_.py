@@ -105,13 +105,13 @@ def import_(
         return
     options = ImportOptions(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
-    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, options=options)
-    text = _accepted(made, file, None)
+    result = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, options=options)
+    text = _accepted(result, file, None)
     _save(text, output)
-    counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
-    if made.cameras:
-        counts += f", {_counted(made.keyframes, 'keyframe')} of {_counted(made.cameras, 'camera')}"
-    console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
+    counts = f"{_counted(result.drones, 'drone')}, {_counted(result.shots, 'shot')}"
+    if result.cameras:
+        counts += f", {_counted(result.keyframes, 'keyframe')} of {_counted(result.cameras, 'camera')}"
+    console.note(f"imported {counts}; {_counted(len(result.diagnostics), 'assumption')}")
 
 
 def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
@@ -143,17 +143,17 @@ def _inside(file: Path, folder: Path) -> str | None:
         return None
 
 
-def _accepted(made: Imported, file: str, kept: KeptFiles | None) -> str:
+def _accepted(result: Imported, file: str, files: KeptFiles | None) -> str:
     """Return the text of a mission that `check` accepts.
 
-    kept : the files that the mission names
+    files : the files that the mission names
     """
     from shotc.checking import check_source
 
-    console.report(made.diagnostics, made.sources)
-    if made.text is None:
+    console.report(result.diagnostics, result.sources)
+    if result.text is None:
         raise typer.Exit(console.EXIT_REJECTED)
-    checked = check_source(made.text.encode(), "the mission", kept)
+    checked = check_source(result.text.encode(), "the mission", files)
     if has_errors(checked.diagnostics):
         console.report(checked.diagnostics, checked.sources)
         failed = Diagnostic(
@@ -161,7 +161,7 @@ def _accepted(made: Imported, file: str, kept: KeptFiles | None) -> str:
         )
         console.report([failed], {})
         raise typer.Exit(console.EXIT_REJECTED)
-    return made.text
+    return result.text
 
 
 def _read(file: str, most: int) -> bytes:

@@ -78,29 +78,29 @@ class _Batch:
         self._waiting: dict[str, Planned] = {}
         self._due = deque(job.name for job in self.left)
 
-    def take(self, made: Planned) -> None:
+    def take(self, planned: Planned) -> None:
         """Write the files of a mission, record that it is done, and report all missions whose turn it is."""
-        name, folder = made.outcome.name, folder_of(made.outcome, self.root)
-        if made.artifacts:
-            made = _written(made, folder)
-        if not made.outcome.errors:
-            self.record.add(self.jobs[name], made)
-        elif made.outcome.mission is not None:
+        name, folder = planned.outcome.name, folder_of(planned.outcome, self.root)
+        if planned.artifacts:
+            planned = _written(planned, folder)
+        if not planned.outcome.errors:
+            self.record.add(self.jobs[name], planned)
+        elif planned.outcome.mission is not None:
             warn_of_earlier(folder)
-        self.outcomes[name] = made.outcome
-        self._waiting[name] = made
+        self.outcomes[name] = planned.outcome
+        self._waiting[name] = planned
         while self._due and self._due[0] in self._waiting:
             outcome = self._waiting.pop(self._due.popleft())
             console.report(outcome.diagnostics, outcome.sources)
 
 
-def _written(made: Planned, folder: Path) -> Planned:
+def _written(planned: Planned, folder: Path) -> Planned:
     """Write the files of a mission. Return it with the errors of files that could not be written."""
-    paths, faults = write(made.artifacts, folder)
+    paths, faults = write(planned.artifacts, folder)
     if paths:
         print_left_over(folder, {path.name for path in paths})
-    outcome = made.outcome._replace(errors=made.outcome.errors + len(faults))
-    return made._replace(diagnostics=(*made.diagnostics, *faults), outcome=outcome)
+    outcome = planned.outcome._replace(errors=planned.outcome.errors + len(faults))
+    return planned._replace(diagnostics=(*planned.diagnostics, *faults), outcome=outcome)
 
 
 def _lines(batch: _Batch, gathered: Gathered) -> Iterator[str]:

@@ -112,9 +112,9 @@ def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
 
 
 def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
-    shown = [s for s in track.shown if s.display == phase.shot]
-    pictures = len({s.picture for s in shown})
-    frames = "" if len(shown) == pictures else f", {len(shown)} frames"
+    frames_of = [s for s in track.shown if s.display == phase.shot]
+    pictures = len({s.picture for s in frames_of})
+    frames = "" if len(frames_of) == pictures else f", {len(frames_of)} frames"
     return as_minutes(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
 
 

@@ -255,7 +255,7 @@ def _flown(
 
 
 def _report(
-    done: Rehearsed,
+    rehearsed: Rehearsed,
     of_files: Sequence[Diagnostic],
     sources: dict[str, SourceFile],
     paths: Sequence[Path],
@@ -267,7 +267,7 @@ def _report(
     from shotc.simulation.document import json_text
     from shotc.simulation.rehearsal_faults import not_kept
 
-    diagnostics = (*not_kept(done), *deviations(done), *of_files)
+    diagnostics = (*not_kept(rehearsed), *deviations(rehearsed), *of_files)
     console.report(diagnostics, sources)
-    console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
+    console.out(json_text(rehearsed) if format is CertificateFormat.JSON else text(rehearsed, paths))
     raise typer.Exit(console.exit_code(diagnostics))

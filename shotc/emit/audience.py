@@ -140,8 +140,8 @@ def picture_name(picture: Picture) -> str:
 def pictures_shown(flight: FleetTrajectory) -> list[FrameTimes]:
     """Return the time from the first to the last frame of each picture of a fleet."""
     times: dict[tuple[str, int], FrameTimes] = {}
-    for shown in flight.shown:
-        key = (shown.display, shown.picture)
-        first = times.get(key, shown)
-        times[key] = FrameTimes(first.display, first.picture, first.index, first.start, shown.end)
+    for frame in flight.shown:
+        key = (frame.display, frame.picture)
+        first = times.get(key, frame)
+        times[key] = FrameTimes(first.display, first.picture, first.index, first.start, frame.end)
     return list(times.values())

@@ -135,15 +135,15 @@ def course_of(
         *_approach(drone, plan, distinct[0][:2], (points[0], len(models))),
         *_legs(drone, plan, distinct, [legs for _, legs in models]),
     ]
-    away = None
+    off_home = None
     if landing is not None and plan.landing is not None:
-        away = float(np.linalg.norm(landing[:2] - np.array(drone.home[:2])))
+        off_home = float(np.linalg.norm(landing[:2] - np.array(drone.home[:2])))
         to = (plan.landing, distinct[-1][1])
-        parts += _landing(drone, (points[-1], landing), to, (len(models), away))
+        parts += _landing(drone, (points[-1], landing), to, (len(models), off_home))
     curves, legs = _timed(parts)
     names = [name for name, _ in models]
     return UntimedFlight(
-        drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, curves, strict=True)), legs, away
+        drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, curves, strict=True)), legs, off_home
     )
 
 
@@ -151,11 +151,11 @@ def _landing(
     drone: Drone, ends: tuple[Array, Array], to: tuple[FlightPoint, str], of: tuple[int, float]
 ) -> Iterator[_UntimedLeg]:
     """Yield the leg to above the landing place, and the descent from there."""
-    (last, place), (count, away) = ends, of
+    (last, place), (count, off_home) = ends, of
     above = np.array([place[0], place[1], last[2]])
     if np.linalg.norm(above - last) > SAME_M:
         yield _straight((last, above), to, (drone, None), count)
-    foot = np.array(drone.home) if away <= AT_HOME_M else np.array([place[0], place[1], drone.home[2]])
+    foot = np.array(drone.home) if off_home <= AT_HOME_M else np.array([place[0], place[1], drone.home[2]])
     yield _straight((above, foot), to, (drone, None), count)._replace(phase="land")
 
 
@@ -228,18 +228,18 @@ def _approach(
 def _legs(
     drone: Drone,
     plan: Waypoints,
-    kept: Sequence[tuple[FlightPoint, str, Array]],
+    placed: Sequence[tuple[FlightPoint, str, Array]],
     models: Sequence[list[Array]],
 ) -> Iterator[_UntimedLeg]:
     """Yield the legs between points, and the stays at points."""
     count = len(models)
-    for i, (point, file, at) in enumerate(kept):
+    for i, (point, file, at) in enumerate(placed):
         if point.stay > 0.0:
             stay = _straight((at, at), (point, file), (drone, None), count)
             duration = min(max(point.stay, BRIEFEST_S), LONGEST_S)
             yield stay._replace(seconds=duration, speed=0.0)
-        if i + 1 < len(kept):
-            to, name, end = kept[i + 1]
+        if i + 1 < len(placed):
+            to, name, end = placed[i + 1]
             duration, speed = _duration(end - at, _in_force(drone, plan, point.pace))
             speed_limit = None if point.pace is None else speed
             yield _UntimedLeg(

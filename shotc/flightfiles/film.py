@@ -33,15 +33,18 @@ MOST_PAIRWISE_DRONES = 10
 
 
 def judged(
-    keyframes: KeyframeIR, flights: Sequence[ClockedFlight], tracks: Sequence[Aligned], away: frozenset[str]
+    keyframes: KeyframeIR,
+    flights: Sequence[ClockedFlight],
+    tracks: Sequence[Aligned],
+    unclocked: frozenset[str],
 ) -> Iterator[FileClaim]:
     """Yield all claims on filming drones.
 
-    away : drones whose flights have no clock
+    unclocked : drones whose flights have no clock
     """
     mission = keyframes.mission
     ir = TrajectoryIR(keyframes, tuple(each.track for each in tracks), (), ())
-    standing = tuple(track for track in parked(ir) if track.drone not in away)
+    standing = tuple(track for track in parked(ir) if track.drone not in unclocked)
     everyone = (*ir.drones, *standing)
     present = [
         JudgedFlight(mission, mission.drone(t.drone), t, others_of(everyone, t.drone)) for t in everyone
@@ -128,11 +131,11 @@ def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None =
 
 
 def beside_fleets(
-    least: float, films: Sequence[ClockedFlight], shown: Sequence[ClockedFlight]
+    least: float, films: Sequence[ClockedFlight], fleet_flights: Sequence[ClockedFlight]
 ) -> Iterator[FileClaim]:
     """Yield the claim on the separation of filming drones from those of fleets."""
-    if films and shown:
-        yield _nearest(least, [*films, *shown], len(films))
+    if films and fleet_flights:
+        yield _nearest(least, [*films, *fleet_flights], len(films))
 
 
 def unkept(keyframes: KeyframeIR, each: Aligned, claims: Sequence[FileClaim]) -> Iterator[str]:

@@ -123,8 +123,8 @@ def named(
             faults.append(
                 _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED_DRONES])._replace(labels=(label,))
             )
-        elif (away := _away(flight, pads[flight.name])) is not None:
-            faults.append(away)
+        elif (astray := _away(flight, pads[flight.name])) is not None:
+            faults.append(astray)
         elif flight.name in by_name or flight.name in others:
             text = f"`{flight.name}` has two flights"
             faults.append(Diagnostic(NOBODY, text, (flight.at(0.0),), help="give one flight for each drone"))

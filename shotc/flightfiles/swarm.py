@@ -261,10 +261,10 @@ def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[FileClaim]:
 
 def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     free, radius = swarm.free, swarm.fleet.radius
-    away: Callable[[Array], Array] = lambda p: signed_distance(solid, p)  # noqa: E731
+    distance_at: Callable[[Array], Array] = lambda p: signed_distance(solid, p)  # noqa: E731
     if len(free.pieces):
         bound = nearest(free.pieces, solid, gap(radius + limit.value))
-        yield _file_claim(swarm, limit, less(bound, radius), who(free, bound.at, away, upper=False))
+        yield _file_claim(swarm, limit, less(bound, radius), who(free, bound.at, distance_at, upper=False))
     upright = swarm.upright
     if not len(upright.pieces):
         return
@@ -277,7 +277,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     if clear.any():
         some = FlightPieces(upright.pieces.pick(clear), upright.owner[clear])
         worst = less(nearest(some.pieces, solid, gap(radius)), radius)
-        owner = who(some, worst.at, away, upper=False)
+        owner = who(some, worst.at, distance_at, upper=False)
     for k in np.flatnonzero(near < radius):
         bound = less(
             inf_distance(upright.pieces.pick(upright.owner == k), solid, gap(near[k])), float(near[k])

@@ -181,8 +181,8 @@ def _proved(
         tracks = [_aligned(keyframes, flown) for flown in films]
         beside = _beside_pads(keyframes, swarms)
         claims = [*waypoints_judged(mission, courses, beside)]
-        away = frozenset(course.drone.name for course in courses)
-        claims += film.judged(beside, films, tracks, away)
+        unclocked = frozenset(course.drone.name for course in courses)
+        claims += film.judged(beside, films, tracks, unclocked)
     except Unread as stopped:  # a faulty cell in a column that only filming drones need
         return FlightsReport(False, (), (_refused(films[0].file, stopped.refused),), sources)
     for swarm in swarms:

@@ -93,8 +93,8 @@ class _Slabs:
     def apart(self, pairs: Index, slab: Index) -> Array:
         """Return the gaps between the balls of pairs, (M,)."""
         one, other = pairs[:, 0], pairs[:, 1]
-        away = norm(self.centre[one, slab] - self.centre[other, slab])
-        return np.asarray(away - self.radius[one, slab] - self.radius[other, slab])
+        distance = norm(self.centre[one, slab] - self.centre[other, slab])
+        return np.asarray(distance - self.radius[one, slab] - self.radius[other, slab])
 
     def bag(self, pairs: Index, slab: Index) -> PairMotions:
         """Return the relative motions of pairs in slabs."""

@@ -119,11 +119,11 @@ def entering(shape: TargetShape, centre: Vec3, eyes: Array, along: Array) -> Arr
 def near(boards: Billboards, centres: Array, radius: float) -> Mask:
     """Return in which frames a ray may meet balls at centres, (3,) or (F, 3); shape (F,)."""
     along = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
-    away = centres - boards.eye
+    offset = centres - boards.eye
     square = np.maximum(np.einsum("fd,fd->f", along, along), NO_LENGTH_M**2)
-    share = np.clip(np.einsum("fd,fd->f", away, along) / square, 0.0, 1.0)
+    share = np.clip(np.einsum("fd,fd->f", offset, along) / square, 0.0, 1.0)
     wide = 0.5 * (np.linalg.norm(boards.right, axis=1) + np.linalg.norm(boards.up, axis=1))
-    return np.asarray(np.linalg.norm(away - share[:, None] * along, axis=1) <= radius + wide)
+    return np.asarray(np.linalg.norm(offset - share[:, None] * along, axis=1) <= radius + wide)
 
 
 def near_solid(boards: Billboards, solid: Solid) -> Mask:
@@ -169,10 +169,10 @@ def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
     if may.any():
         which = may[:, None, None] & rays.own
         eyes, ends = rays.segments(which)
-        along, away = ends - eyes, centres[np.nonzero(which)[0]] - eyes
+        along, offset = ends - eyes, centres[np.nonzero(which)[0]] - eyes
         square = np.maximum(np.einsum("md,md->m", along, along), NO_LENGTH_M**2)
-        share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
-        out[which] = np.linalg.norm(away - share[:, None] * along, axis=1) < radius
+        share = np.clip(np.einsum("md,md->m", offset, along) / square, 0.0, 1.0)
+        out[which] = np.linalg.norm(offset - share[:, None] * along, axis=1) < radius
     return out
 
 
@@ -201,9 +201,9 @@ def _ball_about(solid: Solid) -> tuple[Array, float]:
 def _holding(eyes: Array, middle: Array, contour: Array) -> Billboards:
     """Return the rectangles across the lines of sight around points (F, K, 3), given minus the eyes."""
     frame = billboards(eyes, np.broadcast_to(middle, eyes.shape), 1.0, 1.0)
-    away = middle - eyes
-    far = np.maximum(np.linalg.norm(away, axis=1), NO_LENGTH_M)
-    depth = np.einsum("fkd,fd->fk", contour, away / far[:, None])
+    offset = middle - eyes
+    far = np.maximum(np.linalg.norm(offset, axis=1), NO_LENGTH_M)
+    depth = np.einsum("fkd,fd->fk", contour, offset / far[:, None])
     scale = far[:, None] / np.maximum(depth, LEAST_DEPTH_SHARE * far[:, None])
     corner, sides = middle, []
     for side in (frame.right, frame.up):

@@ -31,19 +31,19 @@ def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
     nearer pair is found, which is rare (Golin et al., randomized data structures for closest pairs).
     """
     points = [(x / apart.across, y / apart.across, z / apart.upright) for x, y, z in pads]
-    away = _measure(apart)
+    measure = _measure(apart)
     best = Pair(0, 0, 1.0 - ROUNDING)
     cells: dict[Cell, list[int]] = defaultdict(list)
     order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # a shuffled order
-    for done, i in enumerate(order):
-        near = [(away(points[i], points[j]), j) for j in _around(cells, points[i], best.share)]
+    for index, i in enumerate(order):
+        near = [(measure(points[i], points[j]), j) for j in _around(cells, points[i], best.share)]
         share, j = min(near, default=(1.0, 0))
         if share < best.share:
             best = Pair(min(i, j), max(i, j), share)
             if share <= ROUNDING:
                 return best
             cells = defaultdict(list)
-            for k in order[: done + 1]:
+            for k in order[: index + 1]:
                 cells[_cell(points[k], share)].append(k)
         else:
             cells[_cell(points[i], best.share)].append(i)
@@ -59,9 +59,9 @@ def first_nearer(one: Sequence[Vec3], other: Sequence[Vec3], reach: float) -> Pa
     for i, pad in enumerate(one):
         cells[_cell(pad, reach)].append(i)
     for j, pad in enumerate(other):
-        away, i = min(((dist(one[i], pad), i) for i in _around(cells, pad, reach)), default=(reach, 0))
-        if away < reach - ROUNDING:
-            return Pair(i, j, away / reach)
+        distance, i = min(((dist(one[i], pad), i) for i in _around(cells, pad, reach)), default=(reach, 0))
+        if distance < reach - ROUNDING:
+            return Pair(i, j, distance / reach)
     return None
 
 

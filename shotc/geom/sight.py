@@ -22,9 +22,9 @@ def outside(cameras: Cameras, places: Array, radius: float) -> Array:
     places : of its centre, (M, 3), metres. The result is in metres, negative if the ball reaches into the
     picture. It is a lower bound on the distance from the picture; beyond a corner of the frame it is smaller.
     """
-    camera, away = cameras.view, _away(cameras, places)
-    edges = frustum_margins(camera, away)
-    return np.asarray(-np.min([*edges, camera.to_camera(away)[2]], axis=0) - radius)
+    camera, offset = cameras.view, _away(cameras, places)
+    edges = frustum_margins(camera, offset)
+    return np.asarray(-np.min([*edges, camera.to_camera(offset)[2]], axis=0) - radius)
 
 
 def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:

@@ -249,14 +249,14 @@ def _clip_near(loop: Array) -> Array:
     inside = loop[:, 2] >= NEAR_PLANE_M
     if inside.all():
         return loop
-    kept: list[Array] = []
+    corners: list[Array] = []
     for i, p in enumerate(loop):
         before = loop[i - 1]
         if inside[i] != inside[i - 1]:
-            kept.append(_crossing(before, p))
+            corners.append(_crossing(before, p))
         if inside[i]:
-            kept.append(p)
-    return np.array(kept) if len(kept) > 2 else np.empty((0, 3))
+            corners.append(p)
+    return np.array(corners) if len(corners) > 2 else np.empty((0, 3))
 
 
 def _clip_strip(strip: Array) -> list[Array]:

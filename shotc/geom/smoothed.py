@@ -47,8 +47,8 @@ def _filtered(
         key = tuple(round(u / SAME_SHARE) for u in offsets)
         if key not in known:
             known[key] = _weights(offsets)
-        for column, kept in zip(columns, out, strict=True):
-            kept.append(sum(w * v for w, v in zip(known[key], column[first:end], strict=True)))
+        for column, filtered in zip(columns, out, strict=True):
+            filtered.append(sum(w * v for w, v in zip(known[key], column[first:end], strict=True)))
     return out
 
 

@@ -35,6 +35,6 @@ class Taper:
 
     def needs(self, p: Array) -> Array:
         """Return the needed distances (...) at positions (..., 3), metres."""
-        away = np.linalg.norm(p[..., None, :] - self.ends, axis=-1)
-        tapered = (self.gaps + self.slope * away).min(axis=-1, initial=np.inf)
+        distance = np.linalg.norm(p[..., None, :] - self.ends, axis=-1)
+        tapered = (self.gaps + self.slope * distance).min(axis=-1, initial=np.inf)
         return np.asarray(np.minimum(self.clearance, tapered))

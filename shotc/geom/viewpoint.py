@@ -232,9 +232,9 @@ def first_pose(subjects: Sequence[RequiredView], lens: Lens, bounds: PlaceBounds
     middle = middle_of(subjects)
     spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
     half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
-    away = spread * (1.0 + 1.0 / half) + bounds.near
+    back = spread * (1.0 + 1.0 / half) + bounds.near
     level = direction(azimuth, 0.0)
-    eye = (middle[0] + away * level[0], middle[1] + away * level[1], max(middle[2], bounds.floor))
+    eye = (middle[0] + back * level[0], middle[1] + back * level[1], max(middle[2], bounds.floor))
     x, y, z = minus(middle, eye)
     return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
 
@@ -322,8 +322,8 @@ def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Requir
     """Return the residuals from the preferred pose: position as shares of the distance, and angles, rad."""
     if drawn is None:
         return []
-    away = max(hypot(*minus(drawn.at, middle_of(subjects))), 1.0)
-    residuals = [NEAR_WEIGHT * (e - d) / away for e, d in zip(pose[:3], drawn.at, strict=True)]
+    distance = max(hypot(*minus(drawn.at, middle_of(subjects))), 1.0)
+    residuals = [NEAR_WEIGHT * (e - d) / distance for e, d in zip(pose[:3], drawn.at, strict=True)]
     if drawn.yaw is not None:
         # As in the quaternion of the difference, independent of the pitch: looking down does not reduce it.
         residuals.append(NEAR_WEIGHT * 2.0 * sin(0.5 * (pose[3] - drawn.yaw)))

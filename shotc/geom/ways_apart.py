@@ -94,12 +94,12 @@ def _near(one: Pieces, other: Pieces, reach: float) -> _Pairs:
 
 def _halved(one: Pieces, other: Pieces, pairs: _Pairs) -> tuple[Pieces, Pieces, _Pairs]:
     """Return the halves of the pieces of pairs, and every pair of halves."""
-    kept, bags = [], []
+    halves, bags = [], []
     for bag, index in zip((one, other), pairs, strict=True):
         used, renamed = np.unique(index, return_inverse=True)
         bags.append(Pieces(bag.low[used], bag.high[used], bag.ctrl[used]).halves())
-        kept.append((renamed, len(used)))
-    (a, m), (b, n) = kept
+        halves.append((renamed, len(used)))
+    (a, m), (b, n) = halves
     first = np.concatenate([a, a, a + m, a + m])
     second = np.concatenate([b, b + n, b, b + n])
     return bags[0], bags[1], (first, second)

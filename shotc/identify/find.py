@@ -101,7 +101,7 @@ def find(mission: MissionIR, glances: Sequence[Glance]) -> SearchResult:
 
 def _target(
     mission: MissionIR,
-    made: Clustered,
+    clustered: Clustered,
     glances: Sequence[Glance],
     meant: tuple[Sequence[Choice | None], int],
 ) -> ClusterTarget:
@@ -111,13 +111,13 @@ def _target(
     """
     choices, cluster = meant
     numbers = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
-    mine = (made.cluster == cluster) & np.isin(made.points.keyframe, numbers)
-    shaping = mine & made.points.within(SLACK_HALF_SIDES)
-    hit = (made.hit[0][mine], made.hit[1][mine])
+    mine = (clustered.cluster == cluster) & np.isin(clustered.points.keyframe, numbers)
+    shaping = mine & clustered.points.within(SLACK_HALF_SIDES)
+    hit = (clustered.hit[0][mine], clustered.hit[1][mine])
     behind = hidden_corners(mission, hit, [glances[i] for i in numbers])
-    cylinder = cylinder_about(mission, np.concatenate([made.points.point[shaping], behind]))
+    cylinder = cylinder_about(mission, np.concatenate([clustered.points.point[shaping], behind]))
     # Objects in front of a building may hide its foot.
-    cylinder = cylinder._replace(bottom=min(cylinder.bottom, float(made.points.foot[shaping].min())))
+    cylinder = cylinder._replace(bottom=min(cylinder.bottom, float(clustered.points.foot[shaping].min())))
     return ClusterTarget(cluster, numbers, cylinder, _name(mission, _parts(mission, hit)))
 
 

@@ -84,19 +84,19 @@ def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | t
     """
     across, up = int(tiles[0]), int(tiles[1])
     boards = _boards(camera, box, (across, up))
-    ways = _laid(_ways(boards), (across, up))
+    rays = _laid(_ways(boards), (across, up))
     eye = np.array(camera.eye)
-    first = _nearest(mission, boards, (across, up), ways)
+    first = _nearest(mission, boards, (across, up), rays)
     with np.errstate(invalid="ignore"):
-        point = eye + first.depth[..., None] * ways
+        point = eye + first.depth[..., None] * rays
     met = np.isfinite(first.depth)
     point[~met] = np.nan
     low = met & (first.mesh >= 0)
     low[low] = point[low][:, 2] < ground_heights(mission, point[low][:, :2]) + ON_GROUND_M
     mesh = np.where(low, GROUND, first.mesh)
     size = _cell(camera, box, (TILE_RAYS * across, TILE_RAYS * up))
-    length = np.linalg.norm(ways, axis=-1) * np.linalg.norm(first.normal, axis=-1)
-    shade = np.abs((first.normal * ways).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
+    length = np.linalg.norm(rays, axis=-1) * np.linalg.norm(first.normal, axis=-1)
+    shade = np.abs((first.normal * rays).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
     return RayHits(point, mesh, first.triangle, np.where(met, first.depth, 0.0) * size, shade)
 
 
@@ -150,9 +150,9 @@ class _FirstHits(NamedTuple):
     normal: Array
 
 
-def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array) -> _FirstHits:
+def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], rays: Array) -> _FirstHits:
     """Return the first hit of each cell."""
-    share, normal = _ground(mission, boards, tiles, ways)
+    share, normal = _ground(mission, boards, tiles, rays)
     mesh = np.where(np.isfinite(share), GROUND, SKY)
     triangle = np.full(share.shape, -1, dtype=np.intp)
     for number, each in enumerate(mission.meshes):
@@ -162,32 +162,32 @@ def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], way
         share = np.where(closer, its_share, share)
         mesh = np.where(closer, number, mesh)
         triangle[closer] = each.surface.source[its_triangle[closer]]
-        normal[closer] = _normals(each.surface, its_triangle[closer], ways[closer])
+        normal[closer] = _normals(each.surface, its_triangle[closer], rays[closer])
     return _FirstHits(share, mesh, triangle, normal)
 
 
 def _ground(
-    mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array
+    mission: MissionIR, boards: Billboards, tiles: tuple[int, int], rays: Array
 ) -> tuple[Array, Array]:
     """Return depth and normal of the ground: the terrain, or the plane z = 0."""
     if mission.terrain is not None:
         surface = mission.terrain.ground.surface
         hits = first_hits(surface, boards, TILE_RAYS)
         share, triangle = _laid(hits.share, tiles), _laid(hits.triangle, tiles)
-        normal = np.zeros(ways.shape)
+        normal = np.zeros(rays.shape)
         met = np.isfinite(share)
-        normal[met] = _normals(surface, triangle[met], ways[met])
+        normal[met] = _normals(surface, triangle[met], rays[met])
         return share, normal
     height = float(boards.eye[0, 2])
-    down = (ways[..., 2] * height) < 0.0
-    share = np.where(down, -height / np.where(down, ways[..., 2], 1.0), np.inf)
-    return share, np.broadcast_to([0.0, 0.0, 1.0], ways.shape).copy()
+    down = (rays[..., 2] * height) < 0.0
+    share = np.where(down, -height / np.where(down, rays[..., 2], 1.0), np.inf)
+    return share, np.broadcast_to([0.0, 0.0, 1.0], rays.shape).copy()
 
 
-def _normals(surface: Surface, triangle: IntArray, ways: Array) -> Array:
+def _normals(surface: Surface, triangle: IntArray, rays: Array) -> Array:
     """Return normals (K, 3) of triangles, not normalised; a point's normal is parallel to the ray."""
     corners = surface.triangles[triangle]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat = np.linalg.norm(normal, axis=1) == 0.0
-    normal[flat] = ways[flat]
+    normal[flat] = rays[flat]
     return np.asarray(normal)

@@ -17,12 +17,12 @@ def flown_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
     left = _by_start(shots)
     waits = waits_for({shot.id: shot.timing for shot in shots})
     flown: list[Shot] = []
-    done: set[str] = set()
+    past: set[str] = set()
     while left:
-        ready = next((s for s in left if waits[s.id] is None or waits[s.id] in done), left[0])
+        ready = next((s for s in left if waits[s.id] is None or waits[s.id] in past), left[0])
         left.remove(ready)
         flown.append(ready)
-        done.add(ready.id)
+        past.add(ready.id)
     return tuple(flown)
 
 

@@ -90,8 +90,8 @@ class _OffsetCamera:
         """Return offsets, given for bearing 0 (North), at bearing ``azimuth``, rad."""
         if self.scene.mission.terrain is not None:
             return self.points(azimuth)
-        away = [(share, hypot(x, y), z) for share, (x, y, z) in points]
-        return tuple((share, (far * sin(azimuth), far * cos(azimuth), z)) for share, far, z in away)
+        polar = [(share, hypot(x, y), z) for share, (x, y, z) in points]
+        return tuple((share, (far * sin(azimuth), far * cos(azimuth), z)) for share, far, z in polar)
 
 
 def _elevated(view: RequiredView, elevation: float | None) -> RequiredView:

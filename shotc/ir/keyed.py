@@ -224,16 +224,16 @@ def _even(keyframes: tuple[Keyframe, ...], duration: float) -> tuple[float, ...]
     return _by_length(keyframes, duration, [1.0] * (len(keyframes) - 1))
 
 
-def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[float]) -> tuple[float, ...]:
+def _by_length(keyframes: tuple[Keyframe, ...], duration: float, distances: list[float]) -> tuple[float, ...]:
     """Return the times of all keyframes; between two known times they are in proportion to length."""
     last = len(keyframes) - 1
     known = {i: k.time for i, k in enumerate(keyframes) if k.time is not None}
     known.setdefault(0, 0.0)
     known.setdefault(last, duration - keyframes[last].hold)
-    least = SHORTEST_WAY_SHARE * sum(ways) / len(ways) or 1.0
+    least = SHORTEST_WAY_SHARE * sum(distances) / len(distances) or 1.0
     times = [0.0] * len(keyframes)
     for i, j in pairwise(sorted(known)):
-        lengths = [max(least, distance) for distance in ways[i:j]]
+        lengths = [max(least, distance) for distance in distances[i:j]]
         free = known[j] - known[i] - sum(k.hold for k in keyframes[i:j])
         clock = known[i]
         for k, length in zip(range(i, j), lengths, strict=True):

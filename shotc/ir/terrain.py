@@ -69,8 +69,8 @@ class Terrain:
         for i in range(0, len(t) - 1, WAYS_AT_ONCE):
             which = slice(i, min(i + WAYS_AT_ONCE, len(t) - 1) + 1)
             start, end = p[which][:-1], p[which][1:]
-            ways = Pieces(t[which][:-1], t[which][1:], np.stack([start, end], axis=1))
-            least = least_where_ground(ways, self.ground, lambda _: CLOSED_M)
+            segments = Pieces(t[which][:-1], t[which][1:], np.stack([start, end], axis=1))
+            least = least_where_ground(segments, self.ground, lambda _: CLOSED_M)
             lows.append((least.attained, least.at))
         over, at = min(lows, default=(inf, 0.0))
         return (at, over) if isfinite(over) else None

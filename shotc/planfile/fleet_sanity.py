@@ -112,9 +112,9 @@ def _track(track: FleetTrajectory, mission: MissionIR, path: str) -> Iterator[Fa
         yield f"{path}.lights.times", "they do not rise"
     yield from light_faults(track.lights, f"{path}.lights")
     pictures = {d.id: len(d.pictures) for d in mission.displays if d.fleet == fleet.name}
-    for i, shown in enumerate(track.shown):
-        if not 0 <= shown.picture < pictures.get(shown.display, 0):
-            yield f"{path}.shown[{i}]", f"there is no picture {shown.picture} of a display `{shown.display}`"
+    for i, frame in enumerate(track.shown):
+        if not 0 <= frame.picture < pictures.get(frame.display, 0):
+            yield f"{path}.shown[{i}]", f"there is no picture {frame.picture} of a display `{frame.display}`"
     end = max([float(breaks[-1]), *(p.end for p in track.phases), *(s.end for s in track.shown)])
     if not isfinite(end) or end * mission.rate * n > MOST_FLEET_TICKS:
         yield f"{path}.breaks", f"it lasts {end:g} s: too many samples at {mission.rate:g} Hz"

@@ -200,12 +200,12 @@ def _groups(mission: MissionIR) -> Iterator[Fault]:
         if len(parts) < len(group.parts) or not parts or not isinstance(group.shape, GroupShape):
             yield f"mission.groups[{i}]", "its parts are not those that it names"
             continue
-        made = [(plus(group.centre, part.offset), part.shape) for part in group.shape.parts]
+        expected = [(plus(group.centre, part.offset), part.shape) for part in group.shape.parts]
         same = [
             dist(centre, body.centre) <= UNIT_TOLERANCE and shape == body.shape
-            for (centre, shape), body in zip(made, parts, strict=False)
+            for (centre, shape), body in zip(expected, parts, strict=False)
         ]
-        if group.track is not None or len(made) != len(parts) or not all(same):
+        if group.track is not None or len(expected) != len(parts) or not all(same):
             yield f"mission.groups[{i}].shape", "its parts are not where they stand"
 
 

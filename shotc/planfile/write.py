@@ -100,8 +100,8 @@ def _used(mission: MissionIR, certificate: tuple[Claim, ...]) -> Iterator[KeyPat
     paths: list[KeyPath] = [claim.path for claim in certificate]
     for named in (mission.zones, mission.every_target, mission.drones, mission.shots):
         paths += [element.path for element in named]
-    for shown in (mission.fleets, mission.displays):
-        paths += [element.path for element in shown]
+    for elements in (mission.fleets, mission.displays):
+        paths += [element.path for element in elements]
     paths += [fleet.key for fleet in mission.fleets]
     paths += [keyframe.path for shot in mission.shots for keyframe in shot.keyframes]
     for path in paths:

@@ -55,13 +55,13 @@ class BesideMesh:
         near = comes_within(self.mesh.surface, a, b, self.clearance + allowance - 1e-9)
         return np.asarray(near | self.mesh.holds(a) | self.mesh.holds(b))
 
-    def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:
+    def planes(self, hulls: Array, reach: float, margin: Kept) -> Planes:
         """Return half-spaces for the pieces that come within ``reach`` metres of the clearance.
 
         hulls : shape (P, m, 3)
-        kept : margin as a function of the slack, metres
+        margin : margin as a function of the slack, metres
         """
-        return half_spaces(self.mesh.surface, hulls, self.clearance, reach, kept)
+        return half_spaces(self.mesh.surface, hulls, self.clearance, reach, margin)
 
     def lack(self, hulls: Array) -> Array:
         """Return the metres by which each piece, shape (P, m, 3), lacks its clearance; (P,), <= 0 is proved.

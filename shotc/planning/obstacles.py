@@ -68,8 +68,8 @@ def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
 
 def _kept_on_ways(mission: MissionIR) -> dict[Owner, SolidClearance | None]:
     zones = from_zones(mission)
-    kept = {zone_owner(z): zones for z in mission.zones if z.keep == "out"}
-    return kept | {target_owner(t): from_target(mission, t.name) for t in mission.targets}
+    solids = {zone_owner(z): zones for z in mission.zones if z.keep == "out"}
+    return solids | {target_owner(t): from_target(mission, t.name) for t in mission.targets}
 
 
 def pad_space(mission: MissionIR, drone: Drone) -> FreeSpace:

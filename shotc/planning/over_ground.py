@@ -72,16 +72,16 @@ class OverGround:
         height, z = height_at(self.ground, p[:, :2]), self._turned(p)[:, 2]
         return np.where(np.isnan(height), -OUTSIDE_M, z - height - self.clearance)
 
-    def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:
+    def planes(self, hulls: Array, reach: float, margin: Kept) -> Planes:
         """Return half-spaces for the pieces that come within ``reach`` metres of the bound.
 
         hulls : shape (P, m, 3)
-        kept : margin as a function of the slack, metres
+        margin : margin as a function of the slack, metres
         """
         hulls, parts = self._turned(hulls), []
         left = np.arange(len(hulls))
         for width in (WIDTH_M + WIDTH_SHARE * reach, *NARROWER_M):
-            planes = ground_planes(self.ground, hulls[left], width, self.clearance, kept)
+            planes = ground_planes(self.ground, hulls[left], width, self.clearance, margin)
             planes = replace(planes, piece=left[planes.piece])
             slack = np.einsum("rmd,rd->rm", hulls[planes.piece], planes.normal).min(axis=1) - planes.offset
             fits = (slack >= -FITS_M) | (width == NARROWER_M[-1])

@@ -91,6 +91,6 @@ def _standing(mission: MissionIR, drone: Drone, flat: Array) -> Iterator[tuple[s
         yield f"drone {pad.name}", distances - drone.radius - pad.radius
 
 
-def _least(name: str, away: Array, times: Array) -> ClosestApproach:
-    k = int(np.argmin(away))
-    return ClosestApproach(name, float(away[k]), float(times[k]))
+def _least(name: str, distances: Array, times: Array) -> ClosestApproach:
+    k = int(np.argmin(distances))
+    return ClosestApproach(name, float(distances[k]), float(times[k]))

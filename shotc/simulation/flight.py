@@ -175,7 +175,7 @@ def _demanded(
     yaw, pitch, rates = film.yaw[k], film.pitch[k], np.array([film.yaw_rate[k], film.pitch_rate[k]])
     angles = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
     framed = () if world.conditions.loop == "replay" else film.framed
-    away = [
+    turned = [
         _shared(
             each.share[k : k + STEPS_PER_RECORD + 1],
             _beyond(
@@ -186,8 +186,8 @@ def _demanded(
         for each in framed
         if each.share[k] > 0.0
     ]
-    if away:
-        angles = angles + np.mean(away, axis=0)
+    if turned:
+        angles = angles + np.mean(turned, axis=0)
         low, high = film.drone.gimbal.pitch
         angles[:, 1] = np.clip(angles[:, 1], low, high)
     axes = axes_of(angles[:, 0], angles[:, 1])
@@ -201,14 +201,14 @@ def _beyond(aim: Array, planned: Array) -> Array:
     return offset
 
 
-def _shared(share: Array, away: Array) -> Array:
+def _shared(share: Array, beside: Array) -> Array:
     """Return the part of angles and rates beside the plan, (R, 4), that a camera follows.
 
     share : the part now and until the next step of the gimbal; its change turns the camera, too
     """
     change = (share[-1] - share[0]) / (STEPS_PER_RECORD * STEP_S)
-    part = share[0] * away
-    part[:, 2:] += change * away[:, :2]
+    part = share[0] * beside
+    part[:, 2:] += change * beside[:, :2]
     return np.asarray(part)
 
 

@@ -312,21 +312,21 @@ class Guidance:
         """
         assert self._held is not None
         count = self.counts[run]
-        fault, done = self._hangs.get(run, ""), None
+        fault, replan = self._hangs.get(run, ""), None
         if not fault:
             try:
-                done = self._planner.replan(situation, self._held.plans[run])
-                fault = fault_of(done, stages)
+                replan = self._planner.replan(situation, self._held.plans[run])
+                fault = fault_of(replan, stages)
             except ReplannerHangs as error:
                 fault = self._hangs[run] = str(error)
             except ReplannerFailed as error:
                 fault = str(error)
             except Exception as error:  # noqa: BLE001  whatever it is, the drone is in the air
                 fault = one_line(error)
-        if done is not None and not fault:
-            setattr(count, done.status, getattr(count, done.status) + 1)
-            count.lack = max(count.lack, done.lack)
-            plan: Plan = done.plan
+        if replan is not None and not fault:
+            setattr(count, replan.status, getattr(count, replan.status) + 1)
+            count.lack = max(count.lack, replan.lack)
+            plan: Plan = replan.plan
             return plan
         count.failed += 1
         count.reason = fault

@@ -130,18 +130,18 @@ def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
 
 
 def rehearse(
-    ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[RunBlock], done: Callable[[int], None]
+    ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[RunBlock], finished: Callable[[int], None]
 ) -> Rehearsed:
     """Return the rehearsal: all runs judged by the mission's requirements.
 
     blocks : of all runs, in any order
-    done : called with the number of finished runs
+    finished : called with the number of finished runs
     """
     promise = (ir.keyframes.mission.rehearsal or SILENT).promise
     flown: list[RunBlock] = []
     for block in blocks:
         flown.append(block)
-        done(sum(len(each.runs) for each in flown))
+        finished(sum(len(each.runs) for each in flown))
     flown.sort(key=lambda block: block.runs[0].number)
     runs = tuple(run for block in flown for run in block.runs)
     verdicts_of_runs = verdicts(runs, promise)

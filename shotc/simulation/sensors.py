@@ -95,11 +95,11 @@ def _reckon(error: Array, times: Array, lost: Interval, drawn: Array) -> None:
     drawn : of the errors of velocity and acceleration, East and North, standard normal, (R, 2, 2)
     """
     first, after = np.searchsorted(times, lost).tolist()
-    kept = error[max(first - 1, 0), :, :2].copy()
+    last = error[max(first - 1, 0), :, :2].copy()
 
     def reckoned(since: Array) -> Array:
         t = since[:, None, None]
-        return np.asarray(kept + RECKONED_M_S * drawn[:, 0] * t + 0.5 * RECKONED_M_S2 * drawn[:, 1] * t * t)
+        return np.asarray(last + RECKONED_M_S * drawn[:, 0] * t + 0.5 * RECKONED_M_S2 * drawn[:, 1] * t * t)
 
     error[first:after, :, :2] = reckoned(times[first:after] - lost[0])
     if after < len(times):

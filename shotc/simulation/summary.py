@@ -173,11 +173,11 @@ def _fleet_row(rehearsed: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...
     )
     nearest = f"{at_most(min(near))} m" if near else "-"
     apart = fleet.apart
-    shown = (f"{at_least(value)} m" for value in sizes)
+    texts = (f"{at_least(value)} m" for value in sizes)
     return (
         fleet.name,
         str(len(fleet.pads)),
-        *shown,
+        *texts,
         nearest,
         f"{apart.horizontal:g} m",
         f"{apart.margin:g} m",

@@ -157,9 +157,9 @@ class _SpeedShape:
         slope = self.r1 - self.r0 + self.k
         x = np.full_like(self.r0, 0.5)
         for _ in range(NEWTON_STEPS):
-            done = self.r0 * x + slope * x**2 / 2 - self.k * x**3 / 3
+            covered = self.r0 * x + slope * x**2 / 2 - self.k * x**3 / 3
             speed = self.r0 + slope * x - self.k * x**2
-            x = np.clip(x - (done - 0.5) / np.maximum(speed, 1e-3), 0.0, 1.0)
+            x = np.clip(x - (covered - 0.5) / np.maximum(speed, 1e-3), 0.0, 1.0)
         return x
 
 

@@ -17,13 +17,13 @@ def moment(text: str, now: datetime) -> datetime:
     Raise ValueError, which says what is wrong with the text.
     """
     # A later hyphen belongs to the zone: 21:30:00-05:00 is a time of day.
-    found = _dated(text) if "-" in text[:5] else _next(text, now)
-    if found <= now:
-        raise ValueError(f"`{text}` was {_span(now - found)} ago")
-    if found - now > LATEST:
+    instant = _dated(text) if "-" in text[:5] else _next(text, now)
+    if instant <= now:
+        raise ValueError(f"`{text}` was {_span(now - instant)} ago")
+    if instant - now > LATEST:
         hours = LATEST.total_seconds() / 3600
-        raise ValueError(f"`{text}` is {_span(found - now)} ahead; at most {hours:g} h are waited")
-    return found
+        raise ValueError(f"`{text}` is {_span(instant - now)} ahead; at most {hours:g} h are waited")
+    return instant
 
 
 def clock_time(moment: float) -> str:
@@ -48,10 +48,10 @@ def _next(text: str, now: datetime) -> datetime:
 
 def _dated(text: str) -> datetime:
     try:
-        found = datetime.fromisoformat(text)
+        instant = datetime.fromisoformat(text)
     except ValueError:
         raise ValueError(f"`{text}` is no date and time; write them as 2026-05-30T21:30:00+02:00") from None
-    return found if found.tzinfo else found.astimezone()
+    return instant if instant.tzinfo else instant.astimezone()
 
 
 def _span(span: timedelta) -> str:

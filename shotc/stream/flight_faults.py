@@ -61,11 +61,11 @@ def mode_left(vehicle: VehicleStatus) -> Diagnostic:
     )
 
 
-def strayed(vehicle: VehicleStatus, away: float, most: float) -> Diagnostic:
+def strayed(vehicle: VehicleStatus, distance: float, most: float) -> Diagnostic:
     """Return the error of a vehicle that is too far from its planned position."""
     return Diagnostic(
         "A024",
-        f"the vehicle of `{vehicle.drone}` is {away:.1f} m from where the plan has it",
+        f"the vehicle of `{vehicle.drone}` is {distance:.1f} m from where the plan has it",
         notes=(f"at most {most:g} m: farther away nothing that was proved holds",),
         help="put it back on its pad, or in the air look at its speed limits and at the wind",
     )

@@ -197,9 +197,9 @@ class Pilot:
             if tick - self._armed_since >= SPOOL:
                 self._go(PilotStage.LIFTING if self.vehicle.autopilot.lift > 0 else PilotStage.FLYING, tick)
             return
-        away = self._away(tick)
-        if away > PAD_OFF_M:
-            yield flight_faults.strayed(self.vehicle, away, PAD_OFF_M)
+        distance = self._away(tick)
+        if distance > PAD_OFF_M:
+            yield flight_faults.strayed(self.vehicle, distance, PAD_OFF_M)
             return
         yield from self._late_or_refused(tick, ARM_DISARM, "to arm")
         if self._again(tick) and self.vehicle.answers.get(ARM_DISARM) != ACCEPTED:
@@ -214,10 +214,10 @@ class Pilot:
             self.vehicle.link.take_off(self.course.height)
 
     def _fly(self, tick: int) -> Iterator[Diagnostic]:
-        away = self._away(tick)
-        self.farthest = max(self.farthest, away)
-        if away > STRAY_M:
-            yield flight_faults.strayed(self.vehicle, away, STRAY_M)
+        distance = self._away(tick)
+        self.farthest = max(self.farthest, distance)
+        if distance > STRAY_M:
+            yield flight_faults.strayed(self.vehicle, distance, STRAY_M)
             return
         yield from self._record(tick)
         if tick >= self.course.last:

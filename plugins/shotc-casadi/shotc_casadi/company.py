@@ -137,9 +137,9 @@ def _against(before: PathIR, after: PathIR, subject: ShotContext) -> str | None:
     A lack that the convex path has as well does not count: verification decides on that.
     """
     lacks = _lacking(after, subject)
-    kept = _lacking(before, subject) if lacks else {}
+    known = _lacking(before, subject) if lacks else {}
     for owner, lack in lacks.items():
-        if lack > kept.get(owner, 0.0) + PROVED_M:
+        if lack > known.get(owner, 0.0) + PROVED_M:
             return f"the refined path comes {lack:.2g} m too near to {owner}"
     free = least_out(before)
     return IN_PICTURE if least_out(after) < min(OUT_M, free - DEEPER_SHARE * abs(free)) else None

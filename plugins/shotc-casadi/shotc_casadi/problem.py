@@ -71,7 +71,7 @@ def problem(
     states, inputs = _guess(subject, stages, references, condition)
     parameters = _parameters(subject, stages, references, walls, margins, states)
     wind = _wind(subject, stages, margins)
-    made = Problem(
+    bare = Problem(
         visibility=condition.visibility,
         parameters=np.column_stack([parameters, wind]),
         states=states,
@@ -84,18 +84,18 @@ def problem(
         windy=any(subject.drone.limits.wind),
     )
     if not is_free(subject, condition, stages, references):
-        return made
+        return bare
     lens = lens_parameters(subject, stages, POSITION_ERROR_WEIGHT, PIN_WEIGHT, REST_WEIGHT)
     more, moves = lens_guess(subject, stages)
     low, high = lens_state_bounds(subject, stages, _pace(subject, margins))
     free = np.full_like(moves, inf)
     return replace(
-        made,
+        bare,
         parameters=np.column_stack([parameters, lens, wind]),
         states=np.column_stack([states, more]),
         inputs=np.column_stack([inputs, moves]),
-        state_bounds=_beside(made.state_bounds, (low, high)),
-        input_bounds=_beside(made.input_bounds, (-free, free)),
+        state_bounds=_beside(bare.state_bounds, (low, high)),
+        input_bounds=_beside(bare.input_bounds, (-free, free)),
         zooms=True,
     )
 

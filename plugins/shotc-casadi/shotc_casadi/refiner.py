@@ -37,11 +37,11 @@ class ConditionRefiner:
         """Return the path with every moving shot refined; what cannot be refined keeps its convex path."""
         if path.timed:
             return refine_in_company(path, ctx, self.condition)
-        done = self.shots(path, ctx)
-        refined, unreached = self._joined(path, done)
-        diagnostics = [*unreached, *(d for r in done if (d := report(path, r, self.name)) is not None)]
-        entries = [entry for r in done for entry in stats(r.shot, r.rounds, r.solution)]
-        deviations = [d for r in done if r.camera is not None for d in deviation(path, r)]
+        results = self.shots(path, ctx)
+        refined, unreached = self._joined(path, results)
+        diagnostics = [*unreached, *(d for r in results if (d := report(path, r, self.name)) is not None)]
+        entries = [entry for r in results for entry in stats(r.shot, r.rounds, r.solution)]
+        deviations = [d for r in results if r.camera is not None for d in deviation(path, r)]
         return Outcome(
             replace(
                 refined,
@@ -59,16 +59,16 @@ class ConditionRefiner:
             refined.append(refine_shot(subject, self.condition))
         return refined
 
-    def _joined(self, path: PathIR, done: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
+    def _joined(self, path: PathIR, results: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
         """Return the path with the refined shots; without a transfer to its ends a shot stays unrefined."""
-        cameras = {r.shot: r.camera for r in done if r.camera is not None}
+        cameras = {r.shot: r.camera for r in results if r.camera is not None}
         try:
             return rejoined(path, cameras), []
         except NoTransit:
             pass
         curves: dict[str, Piecewise] = {}
         unreached: list[Diagnostic] = []
-        for refined in done:
+        for refined in results:
             if refined.shot not in cameras:
                 continue
             try:

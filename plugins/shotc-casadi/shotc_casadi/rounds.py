@@ -95,13 +95,13 @@ def _refine(
     walls = _walls(subject, nodes, margins)
     following = problem(subject, condition, nodes, references, walls, margins)
     given = _given(nodes, references, following)
-    done: list[_RefinementRound] = []
+    tries: list[_RefinementRound] = []
     for rounds in range(1, MOST_ROUNDS + 1):
         attempt = by_one_of(solvers, partial(solve, following))
         tried = _tried(subject, condition, nodes, following, attempt, given)
-        helped = not done or tried.check.helped(min(t.check for t in done))
-        done.append(tried)
-        best = min(done, key=lambda t: t.check)
+        helped = not tries or tried.check.helped(min(t.check for t in tries))
+        tries.append(tried)
+        best = min(tries, key=lambda t: t.check)
         if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
             break
         margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER_ROUNDS)
@@ -110,7 +110,7 @@ def _refine(
             references = next_margins(subject, nodes, references, tried.camera)
         tightened = problem(subject, condition, nodes, references, walls, margins)
         following = replace(tightened, states=attempt.solution.states, inputs=attempt.solution.inputs)
-    return _result(subject, nodes, done, best), best.check
+    return _result(subject, nodes, tries, best), best.check
 
 
 def _walls(subject: ShotContext, nodes: Stages, margins: Margins) -> Array:
@@ -171,22 +171,22 @@ def _leveled(
 
 
 def _result(
-    subject: ShotContext, nodes: Stages, done: list[_RefinementRound], best: _RefinementRound
+    subject: ShotContext, nodes: Stages, rounds: list[_RefinementRound], best: _RefinementRound
 ) -> Refined:
     """Return the best camera if it is clear, else the state of the last round."""
     leg = subject.leg
     assert leg.shot is not None
     clear = best.check.lack <= 0
     shows_less = clear and best.check.hidden > 0
-    kept = best if clear else done[-1]
+    chosen = best if clear else rounds[-1]
     if not clear or shows_less:
-        kept = kept._replace(camera=None)
-    solution, failed = kept.attempt
-    seconds = sum(t.attempt.seconds for t in done)
+        chosen = chosen._replace(camera=None)
+    solution, failed = chosen.attempt
+    seconds = sum(t.attempt.seconds for t in rounds)
     gap = None
-    if kept.camera is None and solution.status == "solved" and not shows_less:
+    if chosen.camera is None and solution.status == "solved" and not shows_less:
         gap = UnprovedPlace(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
-    of = (leg.shot, kept.camera, nodes, len(done), kept.problem, solution, seconds, failed, gap)
+    of = (leg.shot, chosen.camera, nodes, len(rounds), chosen.problem, solution, seconds, failed, gap)
     return Refined(*of, shows_less)
 
 

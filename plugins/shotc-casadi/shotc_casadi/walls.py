@@ -69,11 +69,11 @@ def _bounds(space: FreeSpace, hull: Array, share: float) -> list[Array]:
         slack = float((hull @ n).min()) - wall.offset
         rows.append(np.append(n, wall.offset + kept(np.array(slack), share)))
     for disc in space.discs:
-        away = hull[:, :2].mean(axis=0) - np.array(disc.centre)
-        distance = float(np.linalg.norm(away))
+        off = hull[:, :2].mean(axis=0) - np.array(disc.centre)
+        distance = float(np.linalg.norm(off))
         if distance < 1e-6:
             continue
-        n = np.append(-away / distance, 0.0)
+        n = np.append(-off / distance, 0.0)
         offset = float(n[:2] @ np.array(disc.centre)) - disc.radius
         slack = float((hull @ n).min()) - offset
         rows.append(np.append(n, offset + kept(np.array(slack), share)))

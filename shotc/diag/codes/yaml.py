@@ -317,7 +317,7 @@ def text_diagnostic(fault: Fault, file: str) -> Diagnostic:
     return Diagnostic(
         FAULT_CODES[fault.kind],
         fault.message,
-        (Label(file, fault.span, fault.remark), *related),
+        (Label(file, fault.span), *related),
         fault.notes,
         fault.help,
     )

@@ -72,14 +72,14 @@ class MavlinkEmitter:
             return Emission((), (*fleets, *others))
         if mission.origin is None:
             return Emission((), (*fleets, *others, no_origin(mission, self.name)))
-        done = [_Job.of(mission, flight).emit() for flight in flown]
-        ways = {
+        emitted = [_Job.of(mission, flight).emit() for flight in flown]
+        places = {
             flight.drone: evenly(positions)
-            for flight, (_, positions) in zip(flown, done, strict=True)
+            for flight, (_, positions) in zip(flown, emitted, strict=True)
             if positions is not None
         }
-        meeting = [in_step(mission, each) for each in kept_apart_by_time(mission, ways, ())]
-        emissions = [emission for emission, _ in done]
+        meeting = [in_step(mission, each) for each in kept_apart_by_time(mission, places, ())]
+        emissions = [emission for emission, _ in emitted]
         return Emission(
             tuple(a for e in emissions for a in e.artifacts),
             (*fleets, *others, *(d for e in emissions for d in e.diagnostics), *meeting),

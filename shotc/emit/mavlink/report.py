@@ -60,8 +60,8 @@ def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Dia
 def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     """Return the warning about shots whose timing is lost, because a mission file has no clock."""
     flown = {phase.shot for phase in flight.phases}
-    shown = {picture.name for display in mission.displays for picture in display.pictures if picture.name}
-    moving = [s for s in mission.shots if s.id in flown and (s.ideal is not None or s.subject in shown)]
+    pictures = {picture.name for display in mission.displays for picture in display.pictures if picture.name}
+    moving = [s for s in mission.shots if s.id in flown and (s.ideal is not None or s.subject in pictures)]
     if not moving:
         return []
     names = ", ".join(f"`{shot.id}`" for shot in moving)

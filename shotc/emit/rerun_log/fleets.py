@@ -122,7 +122,7 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
 
 def shown_span(plan: VerifiedIR) -> tuple[float, float] | None:
     """Return the time from the first to the last picture, seconds; None if there is none."""
-    shown = [shown for flight in plan.trajectory.fleets for shown in flight.shown]
-    if not shown:
+    frames = [frame for flight in plan.trajectory.fleets for frame in flight.shown]
+    if not frames:
         return None
-    return min(s.start for s in shown), max(s.end for s in shown)
+    return min(s.start for s in frames), max(s.end for s in frames)

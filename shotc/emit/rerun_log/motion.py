@@ -186,9 +186,9 @@ def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Refer
         _style(stream, f"{entity}/wanted", rgba8(CAMERA), 1.4)
 
 
-def _centre(stream: Any, entity: str, ticks: Array, shown: Frames) -> None:
-    near = (np.abs(shown.u) < 2) & (np.abs(shown.v) < 2)
-    points = np.column_stack([shown.u, shown.v, np.zeros(len(near))])[near]
+def _centre(stream: Any, entity: str, ticks: Array, frames: Frames) -> None:
+    near = (np.abs(frames.u) < 2) & (np.abs(frames.v) < 2)
+    points = np.column_stack([frames.u, frames.v, np.zeros(len(near))])[near]
     if not len(points):
         return
     stream.send_columns(

@@ -264,7 +264,7 @@ def _spot(sheet: Sheet, moment: StoryboardFrame, taken: list[PageRectangle]) -> 
     """Return a free place for a frame's number: at the camera, or beside it, first behind it."""
     x, y = (float(c) for c in sheet.place(moment.pose[:3]))
     back = float(moment.pose[CAM_YAW]) + pi if sheet.is_plan else pi
-    polar = [(away, back + turn) for away in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
+    polar = [(radius, back + turn) for radius in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
     spots = [(x, y)] + [(x + r * cos(a), y + r * sin(a)) for r, a in polar]
     rooms = (_square(np.array(s), NUMBER_RADIUS_IN) for s in spots)
     free = (r for r in rooms if sheet.box.holds(r) and not any(r.meets(other) for other in taken))

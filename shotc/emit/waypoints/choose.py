@@ -125,7 +125,7 @@ class Chooser:
         """Return the actions at each station: its own, then the zoom for the leg that begins there."""
         if self.lens is None:
             return tuple(s.actions for s in stations)
-        last, done = None, []
+        last, by_point = None, []
         for i, station in enumerate(stations):
             actions = list(station.actions)
             last = next((a for a in reversed(actions) if a.kind == "zoom"), last)
@@ -134,8 +134,8 @@ class Chooser:
                 if last is None or edge(hfov, shown_by(self.lens, last)) > SAME_LENS_HALF_FRAMES:
                     last = zoomed(self.lens, hfov)
                     actions.append(last)
-            done.append(tuple(actions))
-        return tuple(done)
+            by_point.append(tuple(actions))
+        return tuple(by_point)
 
     def _lens_of(self, a: int, b: int) -> float:
         """Return the field of view of a leg, rad: a middle value if it is filmed, else that at its end."""

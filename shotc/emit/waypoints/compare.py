@@ -176,9 +176,9 @@ def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bo
     """Return the poses of a re-flight nearest to the planned ones, in order of progress."""
     position = flown.position[inside]
     progress = flown.progress[inside] - flown.progress[inside][0]
-    done = _progress(plan.position, time)
-    total = done[-1] if done[-1] > 0 else 1.0
-    expected = done * (progress[-1] / total)
+    flown_m = _progress(plan.position, time)
+    total = flown_m[-1] if flown_m[-1] > 0 else 1.0
+    expected = flown_m * (progress[-1] / total)
     index, share = _nearest(plan.position, expected, position, progress)
     yaw = [np.unwrap(a[inside]) for a in (flown.body_yaw, flown.cam_yaw)]
     after = np.minimum(index + 1, len(position) - 1)

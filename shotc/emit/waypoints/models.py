@@ -167,8 +167,8 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
             rows.append(_stamped(leg, part, metres, now, hfov))
             metres, now = metres + float(legs.distances[i, -1]), now + float(times[i, -1])
     table = np.concatenate(rows)
-    yaw, pitch, progress, elapsed, film, shown = table[:, 3:].T
-    return ReflownSamples(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)
+    yaw, pitch, progress, elapsed, film, hfovs = table[:, 3:].T
+    return ReflownSamples(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, hfovs)
 
 
 def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:

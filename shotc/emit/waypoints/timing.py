@@ -31,15 +31,16 @@ class WaysTooNear(NamedTuple):
 
 
 def kept_apart_by_time(
-    mission: MissionIR, ways: dict[str, Array], others: Sequence[DroneTrajectory]
+    mission: MissionIR, positions: dict[str, Array], others: Sequence[DroneTrajectory]
 ) -> list[WaysTooNear]:
     """Return the pairs of drones whose paths come nearer than the separation, at whatever times.
 
-    ways : positions (n, 3) of each drone without a clock, metres; those above its pad are added
+    positions : (n, 3) of each drone without a clock, metres; those above its pad are added
     others : flights of drones with a clock; pairs of these are not examined
     """
     trees = {
-        name: cKDTree(np.concatenate([path, *_columns(mission, name, path)])) for name, path in ways.items()
+        name: cKDTree(np.concatenate([path, *_columns(mission, name, path)]))
+        for name, path in positions.items()
     }
     clocked = {flight.drone: cKDTree(evenly(_places(flight))) for flight in others}
     pairs = [*combinations(trees, 2), *product(trees, clocked)]

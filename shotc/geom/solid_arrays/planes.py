@@ -63,10 +63,10 @@ def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
 
 def _away(part: Solid, p: Array) -> tuple[Array, Array]:
     """Return unit directions (..., 3) from a solid to points (..., 3), up if inside, and distances (...)."""
-    away = p - closest_points(part, p)
-    far = np.linalg.norm(away, axis=-1)
+    offset = p - closest_points(part, p)
+    far = np.linalg.norm(offset, axis=-1)
     outside = (far > TOUCHES_M)[..., None]
-    return np.where(outside, away / np.maximum(far, TOUCHES_M)[..., None], _UP), far
+    return np.where(outside, offset / np.maximum(far, TOUCHES_M)[..., None], _UP), far
 
 
 def _widest(part: Solid, hulls: Array, normals: Array) -> tuple[Array, Array]:

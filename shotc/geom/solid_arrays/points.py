@@ -48,13 +48,13 @@ def separation(part: Solid, p: Array) -> tuple[Array, Array]:
     The normal points from the nearest point of the solid to p. Beside a cylinder it is computed from the
     axis, because the coordinates of the nearest point are rounded.
     """
-    away = p - closest_points(part, p)
+    offset = p - closest_points(part, p)
     if isinstance(part, Cylinder):
         flat = p[..., :2] - np.array(part.centre)
         share = np.minimum(1.0, part.radius / np.maximum(_from_axis(part, p), NO_LENGTH_M))
-        away[..., :2] = flat * (1.0 - share)[..., None]
-    distance = np.asarray(np.sqrt(np.einsum("...d,...d->...", away, away)))
-    return distance, away / np.where(distance > 0, distance, 1.0)[..., None]
+        offset[..., :2] = flat * (1.0 - share)[..., None]
+    distance = np.asarray(np.sqrt(np.einsum("...d,...d->...", offset, offset)))
+    return distance, offset / np.where(distance > 0, distance, 1.0)[..., None]
 
 
 def support(part: Solid, n: Array) -> Array:
@@ -111,10 +111,10 @@ def in_convex(corners: Array, xy: Array) -> Mask:
 
 def _closest_on_circle(part: Cylinder, xy: Array) -> Array:
     centre = np.array(part.centre)
-    away = xy - centre
-    distance = np.hypot(away[..., :1], away[..., 1:])
+    offset = xy - centre
+    distance = np.hypot(offset[..., :1], offset[..., 1:])
     scale = part.radius / np.maximum(distance, NO_LENGTH_M)
-    return np.where(distance <= part.radius, xy, centre + away * scale)
+    return np.where(distance <= part.radius, xy, centre + offset * scale)
 
 
 def _closest_on_polygon(part: Prism, xy: Array) -> Array:

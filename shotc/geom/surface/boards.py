@@ -45,12 +45,12 @@ def billboards(eye: Array, centre: Array, width: Array | float, height: Array | 
 
     width, height : (F,) or one for all. From straight above, the lower side faces South.
     """
-    away = centre - eye
-    level = np.column_stack([away[:, 1], -away[:, 0], np.zeros(len(away))])
+    offset = centre - eye
+    level = np.column_stack([offset[:, 1], -offset[:, 0], np.zeros(len(offset))])
     size = np.linalg.norm(level, axis=1)
     level[size <= 0.0] = [1.0, 0.0, 0.0]
     level /= np.linalg.norm(level, axis=1)[:, None]
-    steep = cross(level, away)
+    steep = cross(level, offset)
     steep /= np.maximum(np.linalg.norm(steep, axis=1), _NO_LENGTH)[:, None]
     right = level * np.broadcast_to(width, (len(eye),))[:, None]
     up = steep * np.broadcast_to(height, (len(eye),))[:, None]

@@ -33,8 +33,8 @@ class Cloud:
 
 def cloud_of(points: Array) -> Cloud:
     """Return the cloud of points (N, 3), metres; of more than MOST_POINTS each cell of a grid keeps one."""
-    kept, moved = (points, 0.0) if len(points) <= MOST_POINTS else _thinned(points, MOST_POINTS)
-    return Cloud(surface_of(np.repeat(kept[:, None, :], 3, axis=1)), moved)
+    thinned, moved = (points, 0.0) if len(points) <= MOST_POINTS else _thinned(points, MOST_POINTS)
+    return Cloud(surface_of(np.repeat(thinned[:, None, :], 3, axis=1)), moved)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,11 +64,11 @@ def splats(points: Array, size: float, most: int) -> Splats:
 
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
     """Return the box middles of each cell's points, (M, 3), and the largest distance moved."""
-    kept = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
-    order, starts = _in_cells(points, kept.size)
+    discs = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
+    order, starts = _in_cells(points, discs.size)
     counts = np.diff(np.append(starts, len(points)))
-    moved = np.linalg.norm(points[order] - np.repeat(kept.middle, counts, axis=0), axis=1).max()
-    return kept.middle, float(moved)
+    moved = np.linalg.norm(points[order] - np.repeat(discs.middle, counts, axis=0), axis=1).max()
+    return discs.middle, float(moved)
 
 
 def _in_cells(points: Array, size: float) -> tuple[IntArray, IntArray]:
@@ -93,9 +93,9 @@ def median_spacing(surface: Surface) -> float:
     known = np.isfinite(nearest)
     p, nearest = p[known], nearest[known]
     pairs = within(surface, p, p, nearest)
-    away = np.linalg.norm(surface.triangles[pairs.triangle, 0] - p[pairs.item], axis=1)
-    elsewhere = away > 0.0
-    np.minimum.at(nearest, pairs.item[elsewhere], away[elsewhere])
+    distance = np.linalg.norm(surface.triangles[pairs.triangle, 0] - p[pairs.item], axis=1)
+    elsewhere = distance > 0.0
+    np.minimum.at(nearest, pairs.item[elsewhere], distance[elsewhere])
     return float(np.median(nearest)) if len(nearest) else 0.0
 
 
@@ -105,5 +105,5 @@ def _near_in_order(surface: Surface, picked: IntArray) -> Array:
         picked[:, None] + np.arange(-_NEIGHBOUR_POINTS, _NEIGHBOUR_POINTS + 1), 0, len(surface) - 1
     )
     points = surface.triangles[:, 0]
-    away = np.linalg.norm(points[beside] - points[picked][:, None], axis=2)
-    return np.asarray(np.where(away > 0.0, away, np.inf).min(axis=1))
+    distance = np.linalg.norm(points[beside] - points[picked][:, None], axis=2)
+    return np.asarray(np.where(distance > 0.0, distance, np.inf).min(axis=1))

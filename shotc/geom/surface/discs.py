@@ -29,15 +29,15 @@ def stopped_by_discs(
         that end is a part of the target
     """
     (points, frame), n = of, reach.shape[1]
-    away = points - boards.eye[frame]
-    first, last = _cells_about(away, frame, boards, radius, n)
+    offset = points - boards.eye[frame]
+    first, last = _cells_about(offset, frame, boards, radius, n)
     wide = np.maximum(last - first + 1, 0)
     count = wide[:, 0] * wide[:, 1]
     pair = np.repeat(np.arange(len(points)), count)
     number = np.arange(len(pair)) - np.repeat(np.cumsum(count) - count, count)
     a = first[pair, 0] + number // wide[pair, 1]
     b = first[pair, 1] + number % wide[pair, 1]
-    its, to = frame[pair], away[pair]
+    its, to = frame[pair], offset[pair]
     ray = boards.corner[its] - boards.eye[its]
     ray = ray + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
     square = np.maximum(dot(ray, ray), _NO_LENGTH)
@@ -48,11 +48,11 @@ def stopped_by_discs(
 
 
 def _cells_about(
-    away: Array, frame: IntArray, boards: Billboards, radius: float, n: int
+    offset: Array, frame: IntArray, boards: Billboards, radius: float, n: int
 ) -> tuple[IntArray, IntArray]:
     """Return the first and last cell, along right and up, whose rays may meet discs, (K, 2) each.
 
-    away : the points minus the eyes of their frames, (K, 3), metres
+    offset : the points minus the eyes of their frames, (K, 3), metres
     A ray that meets a disc of radius r passes its point, at depth d and distance l, by at most r, and at a
     depth of d - r or more. So it meets the board, at depth D, within r D l / (d (d - r)) of the point's
     projection.
@@ -62,13 +62,13 @@ def _cells_about(
     corner = boards.corner - boards.eye
     depth = dot(normal, corner)
     side = np.sign(depth)
-    far, deep = np.sqrt(dot(away, away)), dot(away, normal[frame]) * side[frame]
+    far, deep = np.sqrt(dot(offset, offset)), dot(offset, normal[frame]) * side[frame]
     cosine = (deep - radius) / np.maximum(far, _NO_LENGTH)
     clear = cosine > STEEP_COSINE
     share = np.where(clear, deep / np.maximum(np.abs(depth), _NO_LENGTH)[frame], 1.0)
-    on = away / share[:, None] - corner[frame]
+    on = offset / share[:, None] - corner[frame]
     reach = radius / np.where(clear, share * cosine, 1.0)
-    first, last = np.zeros((2, len(away), 2), dtype=np.intp)
+    first, last = np.zeros((2, len(offset), 2), dtype=np.intp)
     for k, edge in enumerate((boards.right, boards.up)):
         square = np.maximum(dot(edge, edge), _NO_LENGTH)[frame]
         at, half = dot(on, edge[frame]) / square, reach / np.sqrt(square)

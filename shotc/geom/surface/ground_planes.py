@@ -41,7 +41,7 @@ class Corners:
     place: Array
 
 
-def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, kept: Kept) -> Planes:
+def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, margin: Kept) -> Planes:
     """Return a half-space above the ground for every piece with ground around it.
 
     hulls : shape (P, m, 3), points whose hull contains each piece, metres
@@ -61,7 +61,7 @@ def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, 
     slack = (some[..., 2] - np.einsum("pmd,pd->pm", some[..., :2], slope)).min(axis=1) - level - clearance
     normal = np.column_stack([-slope, np.ones(len(piece))])
     length = np.sqrt(dot(normal, normal))
-    offset = (level + clearance + kept(slack)) / length
+    offset = (level + clearance + margin(slack)) / length
     return Planes(piece, np.full(len(piece), -1), normal / length[:, None], offset, none)
 
 

@@ -80,11 +80,11 @@ def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Ar
 def _disc_shares(points: Array, boards: Billboards, frame: IntArray, disc: tuple[int, float]) -> Array:
     """Return the shares (K, n * n) at which rays meet discs at points (K, 3); disc : n, and their radius."""
     n, radius = disc
-    ways = np.einsum("fpd,pc->fcd", _ways(boards), cells(n))
-    away = points - boards.eye[frame]
-    along = np.einsum("kcd,kd->kc", ways[frame], away)
-    square = dot(ways, ways)[frame]
-    off = dot(away, away)[:, None] - along**2 / square
+    rays = np.einsum("fpd,pc->fcd", _ways(boards), cells(n))
+    offset = points - boards.eye[frame]
+    along = np.einsum("kcd,kd->kc", rays[frame], offset)
+    square = dot(rays, rays)[frame]
+    off = dot(offset, offset)[:, None] - along**2 / square
     return np.where((along > 0.0) & (off <= radius**2), along / square, np.inf)
 
 

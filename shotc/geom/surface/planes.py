@@ -53,7 +53,7 @@ class Planes:
     crowded: Mask
 
 
-def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, kept: Kept) -> Planes:
+def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, margin: Kept) -> Planes:
     """Return half-spaces between pieces and the triangles that are nearer than clearance plus reach, metres.
 
     hulls : shape (P, m, 3), points whose hull contains each piece
@@ -70,7 +70,7 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
         piece, first = pairs.best(far)
         chosen = pairs.triangle[first]
         normal, gap = separate(surface.triangles[chosen], hulls[piece])
-        behind = support(surface.triangles[chosen], normal) + kept(gap - clearance)
+        behind = support(surface.triangles[chosen], normal) + margin(gap - clearance)
         near = gap < clearance + reach
         planes.append(
             Planes(piece[near], surface.source[chosen[near]], normal[near], behind[near] + clearance, none)
@@ -155,14 +155,14 @@ def _first(triangles: Array, hulls: Array) -> tuple[Array, Array]:
     across = cross(sides, chord[:, None])  # the shortest line between chord and side is normal to both
     outward = cross(sides, level)
     ends = np.stack([_away(triangles, hulls[:, end])[0] for end in (0, -1)], axis=1)
-    ways = np.concatenate([level, across, outward, _from_corners(triangles, hulls), ends], axis=1)
-    ways = np.concatenate([ways, -ways], axis=1)
-    length = np.sqrt(dot(ways, ways))[..., None]
-    ways = np.where(length > 0.0, ways / np.maximum(length, 1e-300), WAYS_OUT[-1])
-    ways = np.concatenate([ways, np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))], axis=1)
-    gaps = _gaps(triangles, hulls, ways)
+    normals = np.concatenate([level, across, outward, _from_corners(triangles, hulls), ends], axis=1)
+    normals = np.concatenate([normals, -normals], axis=1)
+    length = np.sqrt(dot(normals, normals))[..., None]
+    normals = np.where(length > 0.0, normals / np.maximum(length, 1e-300), WAYS_OUT[-1])
+    normals = np.concatenate([normals, np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))], axis=1)
+    gaps = _gaps(triangles, hulls, normals)
     k, each = gaps.argmax(axis=1), np.arange(len(hulls))
-    return ways[each, k], gaps[each, k]
+    return normals[each, k], gaps[each, k]
 
 
 def _from_corners(triangles: Array, hulls: Array) -> Array:
@@ -188,8 +188,8 @@ def _distances(triangles: Array, hulls: Array) -> Array:
 def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
     """Return unit directions (K, 3) from triangles to points (K, 3) (up on them), and distances (K,)."""
     closest_points = closest(triangles, p)
-    away = p - closest_points.point
+    offset = p - closest_points.point
     outside = (closest_points.distance > TOUCHES_M)[:, None]
     return np.where(
-        outside, away / np.maximum(closest_points.distance, TOUCHES_M)[:, None], WAYS_OUT[-1]
+        outside, offset / np.maximum(closest_points.distance, TOUCHES_M)[:, None], WAYS_OUT[-1]
     ), closest_points.distance

@@ -198,8 +198,8 @@ class _Sliding:
         first_eye, last_eye = np.ascontiguousarray(self.high), np.ascontiguousarray(self.low)
 
         def meet(frame: IntArray, low: Array, high: Array) -> Mask:
-            away = np.concatenate([low.T - first_eye[:, frame], last_eye[:, frame] - high.T])
-            share, entering = (away - about) * per[:, frame], enters[:, frame]
+            offset = np.concatenate([low.T - first_eye[:, frame], last_eye[:, frame] - high.T])
+            share, entering = (offset - about) * per[:, frame], enters[:, frame]
             first = np.where(entering, share, 0.0).max(axis=0)
             last = np.where(entering, far, share).min(axis=0)
             return np.asarray(np.maximum(first, 0.0) <= np.minimum(last, far))

@@ -63,8 +63,8 @@ def closest(triangles: Array, p: Array) -> Closest:
     offset = p[:, None] - triangles
     along = np.clip(dot(offset, edges) / np.maximum(dot(edges, edges), TINY), 0.0, 1.0)
     feet = triangles + along[..., None] * edges
-    away = p[:, None] - feet
-    squares = dot(away, away)
+    off = p[:, None] - feet
+    squares = dot(off, off)
     each, side = np.arange(len(p)), squares.argmin(axis=1)
     point, square = feet[each, side], squares[each, side]
     normal = cross(edges[:, 0], edges[:, 1])
@@ -126,12 +126,12 @@ class Halved:
 
 def halved(triangles: Array, longest: float) -> Halved:
     """Split triangles (T, 3, 3) at their longest edges until none is longer than ``longest`` metres."""
-    done: list[Halved] = []
+    finished: list[Halved] = []
     rest, source = triangles, np.arange(len(triangles))
     while len(rest):
         squares = dot(rest[:, _NEXT] - rest, rest[:, _NEXT] - rest)
         long = squares.max(axis=1) > longest**2
-        done.append(Halved(rest[~long], source[~long]))
+        finished.append(Halved(rest[~long], source[~long]))
         rest, source, side = rest[long], source[long], squares[long].argmax(axis=1)
         each = np.arange(len(rest))
         a, b, c = (rest[each, (side + step) % 3] for step in range(3))
@@ -139,6 +139,6 @@ def halved(triangles: Array, longest: float) -> Halved:
         rest = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)])
         source = np.concatenate([source, source])
     return Halved(
-        np.concatenate([np.zeros((0, 3, 3)), *(each.triangles for each in done)]),
-        np.concatenate([np.zeros(0, dtype=np.intp), *(each.source for each in done)]),
+        np.concatenate([np.zeros((0, 3, 3)), *(each.triangles for each in finished)]),
+        np.concatenate([np.zeros(0, dtype=np.intp), *(each.source for each in finished)]),
     )

@@ -50,7 +50,7 @@ def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
     if not cameras:
         return ()
     middle = [median(camera.at[k] for camera in cameras) for k in range(3)]
-    kept = []
+    near_takes = []
     for take in takes:
         near = []
         for camera in take.cameras:
@@ -63,8 +63,8 @@ def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
                     f"a camera that is {distance / 1000:.0f} km from most others",
                     "it is left out",
                 )
-        kept.append(take._replace(cameras=tuple(near)))
-    return tuple(kept)
+        near_takes.append(take._replace(cameras=tuple(near)))
+    return tuple(near_takes)
 
 
 def reached(node: Node, pitch: float, notes: Notes) -> float:

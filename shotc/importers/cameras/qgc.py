@@ -166,16 +166,16 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
         numbers = [number_of(value) for value in params[:PARAMETER_COUNT]]
         numbers += [None] * (PARAMETER_COUNT - len(numbers))
         frame = item.get("frame")
-        made = CameraCommand(
+        camera_command = CameraCommand(
             node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers)
         )
-        if command in (WAYPOINT, SPLINE) and not _is_placed(made):
+        if command in (WAYPOINT, SPLINE) and not _is_placed(camera_command):
             notes.assume(node, f"item {i + 1} is a waypoint without a place", "it is left out")
             continue
         if command not in QUIET and command not in (WAYPOINT, SPLINE):
             notes.assume(node, f"item {i + 1} is command {command}, which no camera needs", "it is left out")
             continue
-        yield made
+        yield camera_command
 
 
 def _is_placed(item: CameraCommand) -> bool:

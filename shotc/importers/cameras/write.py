@@ -48,17 +48,17 @@ def written(
         return None
     widest, narrowest = _lenses(takes)
     usual, lenses = takes[0].cameras[0].hfov or widest, widest - narrowest > SAME_LENS_DEG
-    kept = [
+    drawn = [
         take if options.every else take._replace(cameras=thinned(take.cameras, usual, on_clock=options.times))
         for take in takes
     ]
-    counts = (sum(len(take.cameras) for take in takes), sum(len(take.cameras) for take in kept))
+    counts = (sum(len(take.cameras) for take in takes), sum(len(take.cameras) for take in drawn))
     shots = [
         line
-        for i, take in enumerate(kept)
-        for line in _shot(_id(kept, i), take, options, notes, lenses=lenses)
+        for i, take in enumerate(drawn)
+        for line in _shot(_id(drawn, i), take, options, notes, lenses=lenses)
     ]
-    drone = _drone(footage, kept[0].cameras[0], notes, zoom=(widest, narrowest) if lenses else None)
+    drone = _drone(footage, drawn[0].cameras[0], notes, zoom=(widest, narrowest) if lenses else None)
     head = [f"# Imported from {what}."]
     if counts[1] < counts[0]:
         kept_of = f"{counts[1]} of {counts[0]} cameras"
@@ -68,7 +68,7 @@ def written(
         )
     said = {f"# {note.comment}": None for note in notes.assumptions}
     body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
-    return Written("\n".join([*head, *said, *body, ""]), len(kept), counts[1], counts[0])
+    return Written("\n".join([*head, *said, *body, ""]), len(drawn), counts[1], counts[0])
 
 
 def _rested(take: Take) -> Take:

@@ -102,8 +102,8 @@ def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
     return _numbered(drone, table.name, numbered)
 
 
-def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> DroneRows:
-    numbers, body = [i for i, _ in kept], [line for _, line in kept]
+def _numbered(drone: str, member: str, lines: list[tuple[int, str]]) -> DroneRows:
+    numbers, body = [i for i, _ in lines], [line for _, line in lines]
     shines = len(_cells(body[0])) > 4
     columns = {"time": 0, **{name: k for k, name in enumerate(PLACE, 1)}}
     if shines:
@@ -133,11 +133,11 @@ def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
         refuse(BROKEN, message, rows.node(i))
 
 
-def _all_land(shown: tuple[DroneRows, ...]) -> None:
+def _all_land(tables: tuple[DroneRows, ...]) -> None:
     """Refuse a show in which the table of a drone ends in the air before the others end."""
-    longest = max(shown, key=lambda rows: float(rows.time[-1]))
+    longest = max(tables, key=lambda rows: float(rows.time[-1]))
     end = float(longest.time[-1])
-    for rows in shown:
+    for rows in tables:
         above = float(rows.place[-1, 2] - rows.place[0, 2])
         if rows.time[-1] < end - EARLY_S and above > LANDED_M:
             last = rows.node(len(rows.lines) - 1)

@@ -23,9 +23,9 @@ def elevator(task: RoleTask) -> ImportedShot:
     high, two = task.altitude("z_e")
     place, (lower, upper), said = _stand(task, low, high)
     if abs(high - low) < LEAST_RISE_M:
-        kept = task.assume("an elevator that neither rises nor sinks", "a still camera")
+        noted = task.assume("an elevator that neither rises nor sinks", "a still camera")
         params = f"at: {lower}, look_at: {task.target}"
-        return ImportedShot("static", params, ((*place, low),) * 3, (*one, *two, *said, kept))
+        return ImportedShot("static", params, ((*place, low),) * 3, (*one, *two, *said, noted))
     points = f"points: [{lower}, {upper}], look_at: {task.target}"
     path = ((*place, low), (*place, (low + high) / 2), (*place, high))
     return ImportedShot("follow-path", points, path, (*one, *two, *said))

@@ -130,20 +130,20 @@ def _establish(task: RoleTask) -> ImportedShot:
     params = f"azimuth: {bearing:.1f} deg, distance: [{begin:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
     side = -1.0 if far < 0 else 1.0
     path = task.along((side * begin, 0.0, high), (side * ends, 0.0, last))
-    kept: Said = ()
+    noted: Said = ()
     if not task.course.stands:
-        kept = (
+        noted = (
             task.assume(
                 "an approach is given along the target's path", "along its way at the start of the shot"
             ),
         )
-    return ImportedShot("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
+    return ImportedShot("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *noted), not one)
 
 
-def _apart(task: RoleTask, away: float) -> tuple[float, Said]:
-    if away >= NEAREST_M:
-        return away, ()
-    return NEAREST_M, (task.assume(f"{away:g} m from the target is too near", f"{NEAREST_M:g} m"),)
+def _apart(task: RoleTask, distance: float) -> tuple[float, Said]:
+    if distance >= NEAREST_M:
+        return distance, ()
+    return NEAREST_M, (task.assume(f"{distance:g} m from the target is too near", f"{NEAREST_M:g} m"),)
 
 
 KINDS: dict[str, Callable[[RoleTask], ImportedShot]] = {

@@ -162,7 +162,7 @@ def _clock(
 
 
 def _wrong(
-    points: list[MissionPoint], given: list[float], ways: list[float]
+    points: list[MissionPoint], given: list[float], lengths: list[float]
 ) -> tuple[MissionPoint, str] | None:
     """Return the first point whose time is not plausible, and the reason."""
     missing = next((p for p in points if p.time is None), None)
@@ -170,7 +170,7 @@ def _wrong(
         return missing, "a point of the trajectory has no time"
     if not any(given):
         return points[0], "the times of the trajectory are all 0"
-    for (a, b), length, point in zip(pairwise(given), ways, points[1:], strict=True):
+    for (a, b), length, point in zip(pairwise(given), lengths, points[1:], strict=True):
         if b <= a:
             return point, f"the times of the trajectory do not rise: {b:g} s follows {a:g} s"
         if length / (b - a) > FASTEST_M_S:

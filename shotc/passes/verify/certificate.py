@@ -58,8 +58,8 @@ def _first_difference(written: Claim, proved: Claim) -> Iterator[str]:
     for field, name in (("limit", "limit"), ("worst", "worst value")):
         one, other = getattr(written, field), getattr(proved, field)
         if not _same(one, other):
-            shown = distinct_measures(one, other, proved.unit)
-            yield f"the {name} is {shown[0]} in the certificate, {shown[1]} in the plan"
+            texts = distinct_measures(one, other, proved.unit)
+            yield f"the {name} is {texts[0]} in the certificate, {texts[1]} in the plan"
             return
     for field, (yes, no) in _VERDICTS.items():
         one, other = getattr(written, field), getattr(proved, field)

@@ -124,9 +124,9 @@ def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR)
         yield from _swing(flight, placed, t)
         return
     reported = _allowance(flight, ir, placed, _chords(at))
-    away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
-    k = int(away.argmax())
-    worst = WorstValue(float(away[k]), float(t[k]), "exact")
+    deviation = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
+    k = int(deviation.argmax())
+    worst = WorstValue(float(deviation[k]), float(t[k]), "exact")
     for i in range(len(t) - 1):
         between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
         worst = between if between.value > worst.value else worst
@@ -135,10 +135,10 @@ def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR)
     free = np.array([_is_free(flight, keyframe) for keyframe in keyframes])
     ends = [i for i in (0, len(t) - 1) if free[i]]
     if ends:
-        k = max(ends, key=lambda i: float(away[i]))
+        k = max(ends, key=lambda i: float(deviation[i]))
         limit = Limit("distance from its ends", AT_ENDS_M, "m", shot.path, shot=shot.id)
-        yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "exact"))
-    share = np.where(free, away / np.maximum(_distances(flight.mission, keyframes), 1e-9), 0.0)
+        yield claim(flight, limit, WorstValue(float(deviation[k]), float(t[k]), "exact"))
+    share = np.where(free, deviation / np.maximum(_distances(flight.mission, keyframes), 1e-9), 0.0)
     k = int(share.argmax())
     limit = Limit("detour where it is free", PICTURE_SHARE, "of the distance", shot.path, shot=shot.id)
     yield claim(flight, limit, WorstValue(float(share[k]), float(t[k]), "exact"))

@@ -107,8 +107,8 @@ def farthest(mission: MissionIR, names: Iterable[str], course: ExpectedPlaces) -
     targets = [mission.target(name) for name in names]
     if not targets:
         return UNWATCHED
-    away = [np.linalg.norm(course.places - _centre(target, course.times), axis=1) for target in targets]
-    return float(np.min(away, axis=0).max())
+    distances = [np.linalg.norm(course.places - _centre(target, course.times), axis=1) for target in targets]
+    return float(np.min(distances, axis=0).max())
 
 
 def _centre(target: Target, times: Array | None) -> Array:

@@ -166,14 +166,14 @@ def diagnostics_of(
     differing: Sequence[MissionDifference], reviewed: KeyframeIR, code: str, notes: tuple[str, ...]
 ) -> list[Diagnostic]:
     """Return differences as diagnostics on the mission's lines: the first ones each, the others together."""
-    shown = [
+    diagnostics = [
         Diagnostic(code, d.text, (reviewed.mission.origins.value(d.path),), notes, REPLAN)
         for d in differing[:MOST_REPORTED]
     ]
     if len(differing) > MOST_REPORTED:
         more = f"and {len(differing) - MOST_REPORTED} more differences between the plan and its mission"
-        shown.append(Diagnostic(code, more, (reviewed.mission.origins.value(()),), help=REPLAN))
-    return shown
+        diagnostics.append(Diagnostic(code, more, (reviewed.mission.origins.value(()),), help=REPLAN))
+    return diagnostics
 
 
 def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> list[Diagnostic]:

@@ -116,9 +116,9 @@ def _space(mission: MissionIR, drone: Drone, track: DroneTrajectory, time: float
         if clearance < drone.radius + AT_EDGE_M:
             yield f"zone `{zone.name}`"
     for target in mission.targets:
-        away = moved(target, np.array([time]))[0]
+        moved_by = moved(target, np.array([time]))[0]
         if (
-            distance(target.kept_clear, (x - away[0], y - away[1], z - away[2]))
+            distance(target.kept_clear, (x - moved_by[0], y - moved_by[1], z - moved_by[2]))
             < drone.radius + rules.target_clearance + AT_EDGE_M
         ):
             yield f"the clearance of target `{target.name}` ({measure(rules.target_clearance, 'm')})"

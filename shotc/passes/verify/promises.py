@@ -73,8 +73,8 @@ def target_of(claim: Claim, code: str) -> str:
 
 def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
     """Return the promise to write instead, if there is one, and another remedy."""
-    kept = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
-    return f"promise `{kept}`, or {_INSTEAD[code]}" if kept else _INSTEAD[code]
+    promise = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
+    return f"promise `{promise}`, or {_INSTEAD[code]}" if promise else _INSTEAD[code]
 
 
 def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagnostic]:
@@ -82,9 +82,9 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
     origins = ir.keyframes.mission.origins
     flown = {p.shot for track in ir.drones for p in track.phases}
     for shot in (s for s in ir.keyframes.mission.shots if s.id in flown):
-        made = [claim.constraint for claim in certificate if claim.shot == shot.id]
+        names = [claim.constraint for claim in certificate if claim.shot == shot.id]
         for key, code in _KEYS.items():
-            if getattr(shot.promise, key) is None or any(_ENDS[code] in name for name in made):
+            if getattr(shot.promise, key) is None or any(_ENDS[code] in name for name in names):
                 continue
             yield Diagnostic(
                 "V046",
@@ -135,12 +135,12 @@ def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
 def _reveal(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     """Return the reveal that all targets of the shot keep; empty where its direction would change."""
     assert shot.promise.reveal is not None
-    shown = []
+    shares = []
     for promised, end in zip(shot.promise.reveal, (AT_FIRST, AT_LAST), strict=True):
         broken = [c for c in certificate if c.shot == shot.id and not c.holds and c.constraint.endswith(end)]
         worst = [away(c.worst, upper=c.upper, digits=_DIGITS) for c in broken]
-        shown.append((max if broken[0].upper else min)(worst) if broken else promised)
-    (first, last), (start, finish) = shot.promise.reveal, shown
+        shares.append((max if broken[0].upper else min)(worst) if broken else promised)
+    (first, last), (start, finish) = shot.promise.reveal, shares
     if (finish - start) * (last - first) <= 0:
         return ""
     return f"reveal: {{from: {100 * start:.{_DIGITS}g} %, to: {100 * finish:.{_DIGITS}g} %}}"

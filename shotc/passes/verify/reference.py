@@ -77,11 +77,11 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         if subject.reference is None:
             continue
         reference = np.array([subject.asked(float(u) - phase.start).place for u in t], dtype=np.float64)
-        away = np.linalg.norm(references(flight.track, shot.id, subject.target, t) - reference, axis=1)
-        away = np.where(np.isnan(away), np.inf, away)
-        k = int(np.argmax(away))
-        if away[k] > off:
-            off, when = float(away[k]), float(t[k])
+        deviation = np.linalg.norm(references(flight.track, shot.id, subject.target, t) - reference, axis=1)
+        deviation = np.where(np.isnan(deviation), np.inf, deviation)
+        k = int(np.argmax(deviation))
+        if deviation[k] > off:
+            off, when = float(deviation[k]), float(t[k])
     yield claim(flight, _unframed(shot), WorstValue(missing, when, "sampled"))
     limit = _off_place(shot, "reference off its composition", hard=hard)
     yield claim(flight, limit, WorstValue(off, when, "sampled"))
@@ -104,10 +104,10 @@ def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, ti
     at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
     if len(at) < len(placed.keyframes):
         return np.ones(len(times), dtype=np.bool_)
-    kept = np.zeros(len(times), dtype=np.bool_)
+    inside = np.zeros(len(times), dtype=np.bool_)
     for start, end, a, b in _legs(placed, at, phase):
-        kept |= (times >= start - a.hold) & (times <= end + b.hold) & (a.target == target)
-    return kept if kept.any() else ~kept
+        inside |= (times >= start - a.hold) & (times <= end + b.hold) & (a.target == target)
+    return inside if inside.any() else ~inside
 
 
 def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[Leg]:

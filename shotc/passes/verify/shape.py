@@ -146,10 +146,10 @@ def shape(flight: JudgedFlight) -> Iterator[Claim]:
     curve, drone = flight.track.curve, flight.drone
     yield from _joints(flight)
     ends = np.array([curve.start, curve.end])
-    away = np.linalg.norm(curve(ends)[:, :3] - np.array(drone.home), axis=1)
-    k = int(np.argmax(away))
+    off_home = np.linalg.norm(curve(ends)[:, :3] - np.array(drone.home), axis=1)
+    k = int(np.argmax(off_home))
     home = Limit("distance from home", AT_HOME_M, "m", (*drone.path, "home"))
-    yield claim(flight, home, WorstValue(float(away[k]), float(ends[k]), "exact"))
+    yield claim(flight, home, WorstValue(float(off_home[k]), float(ends[k]), "exact"))
     still = np.max([np.abs(curve.derivative(n)(ends)).max(axis=1) for n in (1, 2)], axis=0)
     k = int(np.argmax(still))
     rest = Limit("rate at start and end", AT_REST, "m/s", drone.path)

@@ -100,8 +100,8 @@ def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> 
     t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
     begun = at_start(flight.mission, shot, phase.start)
     ideal = np.array([ideal_place(flight.mission, begun, phase.start, float(u)) for u in t])
-    away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
-    k = int(np.argmax(away))
+    deviation = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
+    k = int(np.argmax(deviation))
     limit = Limit(
         "distance from its place",
         _allowed(flight, ir, begun, ExpectedPlaces(ideal, t)),
@@ -109,7 +109,7 @@ def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> 
         shot.path,
         shot=shot.id,
     )
-    yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "sampled"))
+    yield claim(flight, limit, WorstValue(float(deviation[k]), float(t[k]), "sampled"))
 
 
 def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, course: ExpectedPlaces) -> float:
@@ -142,8 +142,8 @@ def _miss(
     placed, index = which
     written = placed.shot.keyframes[index]
     at = placed.keyframes[index].at if written.beside is None else place_of(flight.mission, written, time)
-    away = flight.track.curve(time)[:3] - np.array(at)
-    return WorstValue(float(np.linalg.norm(away)), time, "exact")
+    offset = flight.track.curve(time)[:3] - np.array(at)
+    return WorstValue(float(np.linalg.norm(offset)), time, "exact")
 
 
 def _still(

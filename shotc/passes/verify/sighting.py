@@ -112,8 +112,10 @@ def _notes(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
 
 
 def _how_far(sight: CameraAndBody, claim: Claim) -> str:
-    away = np.linalg.norm(np.subtract(*(t.curve(claim.time or 0.0)[:3] for t in (sight.film, sight.other))))
-    far = f"{float(away):.1f} m from the camera"
+    distance = np.linalg.norm(
+        np.subtract(*(t.curve(claim.time or 0.0)[:3] for t in (sight.film, sight.other)))
+    )
+    far = f"{float(distance):.1f} m from the camera"
     if sight.mission.rules.half_angle is None:
         return f"its body reaches {measure(-claim.worst, 'm')} into the frame, {far}"
     reached, required = distinct_measures(max(0.0, claim.worst), claim.limit, "rad")
@@ -136,11 +138,11 @@ def _doing(other: DroneTrajectory, time: float) -> str:
 
 
 def _help(sight: CameraAndBody, claim: Claim, phase: Phase) -> str:
-    ways = ", or ".join(kept_out(sight, claim, phase))
+    remedies = ", or ".join(kept_out(sight, claim, phase))
     if claim.hard:
         prefer = "`rules: {mutual_visibility: {strength: prefer}}`"
-        return f"{ways}, or write {prefer} for a warning instead of an error"
+        return f"{remedies}, or write {prefer} for a warning instead of an error"
     return (
-        f"{ways}, or write `rules: {{mutual_visibility: {{strength: off}}}}` to accept it; "
+        f"{remedies}, or write `rules: {{mutual_visibility: {{strength: off}}}}` to accept it; "
         "`require` there keeps drones out at any cost"
     )

@@ -114,7 +114,7 @@ def choose(
     mission: MissionIR,
     drone: Drone,
     others: OtherVehicles,
-    ways: Iterable[list[MovingLeg]],
+    candidates: Iterable[list[MovingLeg]],
     when: When,
     then: NextLeg | None = None,
 ) -> Transfer | None:
@@ -126,7 +126,7 @@ def choose(
     is late can still be put off, or be reported with its earliest start. Where a start is given, every
     transfer in time leads to the same next leg, so nothing near that leg makes a late transfer better.
 
-    ways : legs of each candidate, the preferred ones first
+    candidates : legs of each candidate, the preferred ones first
     then : the next leg, which has to be clear as well
     """
     tried: list[Transfer] = []
@@ -136,7 +136,7 @@ def choose(
         ready = 0.0 if then is None else then.ready
         return 0.0 if when.deadline is not None else max(transfer.end, ready) - max(tried[0].end, ready)
 
-    for legs in ways:
+    for legs in candidates:
         for transfer in _tries(mission, drone, others, legs, when, then):
             in_time = when.deadline is None or transfer.end <= when.deadline
             tried.append(transfer)
@@ -152,7 +152,7 @@ def choose(
 
     def worth(transfer: Transfer) -> tuple[bool, bool, float, float, bool, float, float, float]:
         late = max(0.0, transfer.end - deadline)
-        kept = min(_kept(transfer, waits(transfer)), 0.0)
+        lack = min(_kept(transfer, waits(transfer)), 0.0)
         unseen = _unseen(others, transfer, waits(transfer))
         required = min(transfer.required, 0.0)
         apart = transfer.slack if when.deadline is None else transfer.on_way
@@ -162,7 +162,7 @@ def choose(
             required,
             -late,
             transfer.slack >= 0.0,
-            kept,
+            lack,
             min(transfer.slack, COMFORT_M),
             unseen,
         )
@@ -229,9 +229,11 @@ def _tries(
         between = until_then & ~upright
         kept_from = (*others.moving, *others.later)
         apart = [(what, _apart(what, times[between], places[between])) for what in kept_from]
-        kept = min((lack for _, lack in apart), default=inf)
+        required_slack = min((lack for _, lack in apart), default=inf)
         required = min((lack for what, lack in apart if what.required), default=inf)
-        yield Transfer(tuple(started), leaves + duration, slack, on_way, unseen, met, kept, required)
+        yield Transfer(
+            tuple(started), leaves + duration, slack, on_way, unseen, met, required_slack, required
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

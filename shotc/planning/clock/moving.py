@@ -115,9 +115,9 @@ def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     for target in mission.targets:
         if target.track is not None:
             name, part = target_owner(target), target._replace(centre=(0.0, 0.0, 0.0)).kept_clear
-            kept = from_target(mission, target.name)
-            apart = clearance if kept is None else drone.radius + kept.metres + MARGIN_M
-            required = kept is not None and kept.required
+            rule = from_target(mission, target.name)
+            apart = clearance if rule is None else drone.radius + rule.metres + MARGIN_M
+            required = rule is not None and rule.required
             at = partial(places, target.track)
             motions.append(Moving(name, part, clearance, at, apart=apart, required=required))
     return tuple(motions)

@@ -39,6 +39,6 @@ def least_out(path: PathIR) -> float:
                 if rules.half_angle is None:
                     least = min(least, float(outside(cameras, places, radius).min()))
                 else:
-                    away = off_axis(cameras, places, radius) - rules.half_angle
-                    least = min(least, float(away.min()))
+                    out = off_axis(cameras, places, radius) - rules.half_angle
+                    least = min(least, float(out.min()))
     return least

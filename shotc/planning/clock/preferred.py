@@ -50,9 +50,9 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
     before, after = plain(times)[:, :3], freer(times)[:, :3]
     targets = [camera_task.mission.target(s.target) for s in camera_task.subjects]
     far = [np.linalg.norm(centres(target, times) - before, axis=1) for target in targets]
-    away = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
+    distance = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
     moved = np.linalg.norm(after - before, axis=1)
-    share = moved / np.maximum(away, STEP_S)
+    share = moved / np.maximum(distance, STEP_S)
     k = int(share.argmax())
     crops = (_whole(camera_task, targets, times, before) & ~_whole(camera_task, targets, times, after)).any()
     return Cost(float(moved[k]), float(share[k]), bool(crops))

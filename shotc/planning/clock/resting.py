@@ -43,8 +43,8 @@ def shift_beside_traffic(
         fine = bounds_slack(space, places) >= MARGIN_M
         for what, at in tracks:
             needs = max(what.apart, what.clearance) + COMFORT_M
-            away = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))
-            fine &= away.reshape(len(places), -1).min(axis=1) >= needs
+            clear = distances(what.part, (places[:, None] - at[None]).reshape(-1, 3))
+            fine &= clear.reshape(len(places), -1).min(axis=1) >= needs
         if fine.any():
             return np.asarray(shifts[int(fine.argmax())])
     return np.zeros(3)

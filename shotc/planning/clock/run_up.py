@@ -72,7 +72,7 @@ class RunUp:
             self, seconds=least / (1.0 - GOES_ON_SHARE) if shift.any() else self.seconds, shift=shift
         )
 
-    def at(self, away: Array) -> Array:
+    def at(self, seconds: Array) -> Array:
         """Return positions (M, 3) at times (M,) relative to the film's end, seconds; negative is before the
         film.
 
@@ -80,13 +80,13 @@ class RunUp:
         run-up with a shift keeps the film's speed for a part of its duration: a subject that follows the
         camera would run into a drone that slows down first.
         """
-        x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
+        x = np.clip(1.0 - np.abs(seconds) / self.seconds, 0.0, 1.0)
         goes_on = GOES_ON_SHARE if self.shift.any() else 0.0
         y = np.minimum(x / (1.0 - goes_on), 1.0)
         evenly = np.minimum(1.0 - x, goes_on)
         flown = self.seconds * (evenly + (1.0 - goes_on) * (0.5 - y**3 + 0.5 * y**4))
         beside = minimum_jerk(np.minimum((1.0 - x) / ACROSS_SHARE, 1.0))
-        straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
+        straight = self.place + (np.sign(seconds) * flown)[:, None] * self.velocity
         return np.asarray(straight + beside[:, None] * self.shift)
 
 

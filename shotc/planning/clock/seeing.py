@@ -60,14 +60,14 @@ def ways_of(task: ClockTask) -> tuple[KeyframeSpan, ...]:
     return tuple(spans)
 
 
-def led_to_see(task: ClockTask, ways: tuple[KeyframeSpan, ...], motion: Piecewise) -> ClockTask | None:
+def led_to_see(task: ClockTask, spans: tuple[KeyframeSpan, ...], motion: Piecewise) -> ClockTask | None:
     """Return the task with ways led to where their targets are visible; None where no way is changed.
 
     motion : x, y, z over the task's clock
     """
     breaks = task.clock.breaks
     places, for_sight = motion(breaks)[:, :3], np.zeros(len(breaks))
-    for span in ways:
+    for span in spans:
         (inside,) = np.nonzero((breaks >= span.start - STEP_S / 2) & (breaks <= span.end + STEP_S / 2))
         if len(inside) > 2:
             course = _led(task, span.target, breaks[inside], places[inside])
@@ -122,10 +122,10 @@ class VisibleShares:
         )
 
 
-def shown(task: ClockTask, ways: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
+def shown(task: ClockTask, spans: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
     """Return what a camera shows on ways; curve : all channels over the task's clock."""
     mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
-    for span in ways:
+    for span in spans:
         t = np.linspace(span.start, span.end, max(2, round((span.end - span.start) / STEP_S)))
         pose = curve(t)
         hidden.append(coverage(mission, (), span.target.name, pose[:, :3], t).share)

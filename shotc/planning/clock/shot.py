@@ -312,12 +312,14 @@ def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) 
     return Piecewise(np.array([*breaks[:-1], end]), np.array(pieces, dtype=np.float64))
 
 
-def _deviations(task: ClockTask, flown: PositionResult, away: Array) -> tuple[ClockDeviation, ...]:
-    """Return the worst deviation of each interval off the ideal; away : as of ``_away``."""
+def _deviations(task: ClockTask, flown: PositionResult, off_ideal: Array) -> tuple[ClockDeviation, ...]:
+    """Return the worst deviation of each interval off the ideal; off_ideal : as of ``_away``."""
     times = _filmed(task)
     return tuple(
-        ClockDeviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
-        for i in worst_of_runs(away, LEFT_M, NOTICE_M)
+        ClockDeviation(
+            task.shot.id, float(off_ideal[i]), float(times[i]), _cause(task, flown, float(times[i]))
+        )
+        for i in worst_of_runs(off_ideal, LEFT_M, NOTICE_M)
     )
 
 

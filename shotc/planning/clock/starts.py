@@ -171,12 +171,12 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
     # Placing a framing takes long. Placed for the first start, it is a good guess for the later ones.
     moved = placed_at(mission, placed, start).shot
     guess = next((i for i in range(1, len(tried)) if fits(i, moved)), 1)
-    found = next((i for i in range(guess, len(tried)) if fits(i)), None)
-    if found is None:
-        found = next((i for i in range(1, guess) if fits(i)), None)
-    elif found == guess:
-        found = next((i + 1 for i in range(guess - 1, 0, -1) if not fits(i)), 1)
-    return start if found is None else tried[found]
+    index = next((i for i in range(guess, len(tried)) if fits(i)), None)
+    if index is None:
+        index = next((i for i in range(1, guess) if fits(i)), None)
+    elif index == guess:
+        index = next((i + 1 for i in range(guess - 1, 0, -1) if not fits(i)), 1)
+    return start if index is None else tried[index]
 
 
 def put_off(

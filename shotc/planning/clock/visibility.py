@@ -133,7 +133,7 @@ def keep_free(
             (partial(_in_own, camera_task, body, visibility.half_angle), own) for body in visibility.bodies
         ]
     parts = [_linear(outside_of, at, breaks, course) for outside_of, at in pictures if len(at)]
-    half_spaces = tuple(kept for part in parts for kept in part.half_spaces)
+    half_spaces = tuple(each for part in parts for each in part.half_spaces)
     return PictureHalfSpaces(half_spaces, min((part.worst for part in parts), default=np.inf))
 
 

@@ -44,8 +44,8 @@ def place_shot(
     misses: list[Unmet] = []
     for index, keyframe in enumerate(shot.keyframes):
         course = _course(shot.keyframes, index, placed[-1].yaw if placed else NORTH_RAD)
-        done, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
-        placed.append(done)
+        placement, miss = _place(moments[index] if moments else mission, shot, keyframe, course)
+        placed.append(placement)
         if miss is not None:
             misses.append(miss)
     return with_turns(shot.keyframes, tuple(placed)), tuple(misses)

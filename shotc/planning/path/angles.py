@@ -326,10 +326,10 @@ def _places(keyed: KeyedPath, samples: list[_KnownAngles], anchors: list[_KnownA
 def _rests(keyed: KeyedPath, i: int) -> bool:
     """Return whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
     near = [j for j in (i - 1, i + 1) if 0 <= j < len(keyed.s)]
-    ways = [
+    lengths = [
         np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
     ]
-    return keyed.keyframes[i].hold > 0 or any(length < SAME_PLACE_M for length in ways)
+    return keyed.keyframes[i].hold > 0 or any(length < SAME_PLACE_M for length in lengths)
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:

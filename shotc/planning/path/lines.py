@@ -162,25 +162,25 @@ def _drawn(
     return course.places if course.for_sight.any() else None
 
 
-def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoWay:
-    a, b = points[kept[:-1]], points[kept[1:]]
+def _ways(space: FreeSpace, points: Array, numbers: list[int]) -> list[Array] | NoWay:
+    a, b = points[numbers[:-1]], points[numbers[1:]]
     polylines = []
     shut = blocked(space, a, b)
-    for k in range(len(kept) - 1):
+    for k in range(len(numbers) - 1):
         straight = np.stack([a[k], b[k]])
         route = over_ground(space, find_route(space, a[k], b[k]) if shut[k].any() else straight)
         if route is None:
-            return NoWay(a[k], b[k], (kept[k], kept[k + 1]))
+            return NoWay(a[k], b[k], (numbers[k], numbers[k + 1]))
         polylines.append(route)
     return polylines
 
 
 def _joined(
-    keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], ways: list[Array]
+    keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], polylines: list[Array]
 ) -> Polyline:
     """Return the polyline of the ways from node to node; nodes : keyframe of each node, or -1."""
     corners, s, of = [start], [0.0], [nodes[0]]
-    for (i, j), leg in zip(pairwise(nodes), ways, strict=True):
+    for (i, j), leg in zip(pairwise(nodes), polylines, strict=True):
         if len(leg) == 2 and np.linalg.norm(leg[1] - leg[0]) < SAME_PLACE_M:
             steps = np.array([_turn_length(keyframes[i], keyframes[j])])
             corners.append(corners[-1])

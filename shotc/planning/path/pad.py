@@ -90,7 +90,9 @@ def _in_column(pad: FreeSpace, home: Array, top: Array) -> PadBlocked | None:
             top - home
         )
         if mesh.stops(home[None], top[None], 0.0)[0]:
-            away = mesh.clearance + mesh.slack(at)
-            k = int(away.argmin())
-            hits.append((float(at[k, 2]), PadBlocked(mesh.owner, "above", mesh.clearance, float(away[k]))))
+            distance = mesh.clearance + mesh.slack(at)
+            k = int(distance.argmin())
+            hits.append(
+                (float(at[k, 2]), PadBlocked(mesh.owner, "above", mesh.clearance, float(distance[k])))
+            )
     return min(hits, key=lambda hit: hit[0])[1] if hits else None

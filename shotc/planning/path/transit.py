@@ -142,8 +142,8 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Polyline | None:
     short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / TAPER_SLOPE
     bent = _bent(flight, wide, a, b) if short else None
     lines = [bent] if bent is not None else []
-    away, back = (_outside(flight, replace(full, ends=wide.ends), *pair) for pair in ((a, b), (b, a)))
-    route = None if away is None or back is None else find_route(full, away, back)
+    out, back = (_outside(flight, replace(full, ends=wide.ends), *pair) for pair in ((a, b), (b, a)))
+    route = None if out is None or back is None else find_route(full, out, back)
     if route is not None:
         lines.append(_joined(a, route, b))
     lines = [line for line in (over_ground(flight, line) for line in lines) if line is not None]

@@ -192,9 +192,9 @@ class _Sky:
 
     def _picture(self, flight: FleetTrajectory, time: float) -> tuple[Picture, float]:
         """Return the picture that stands from a time on, and the pace of its display."""
-        shown = min(flight.shown, key=lambda s: abs(s.start - time))
-        display = self.mission.display(shown.display)
-        return display.pictures[shown.picture], display.pace
+        frame = min(flight.shown, key=lambda s: abs(s.start - time))
+        display = self.mission.display(frame.display)
+        return display.pictures[frame.picture], display.pace
 
     def _slack(self, flight: FleetTrajectory, block: FlightBlock) -> float:
         """Return by how many seconds a block may begin earlier: since lift-off, or since the end

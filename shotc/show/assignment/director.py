@@ -91,7 +91,7 @@ class Director:
 
     def _followed(self) -> list[tuple[Recorded, float]]:
         """Return the recorded flights with the time at which each begins."""
-        first = {shown.display: shown.start for shown in reversed(self.score.shown)}
+        first = {frame.display: frame.start for frame in reversed(self.score.shown)}
         return [(flight, first[flight.display] - flight.shown[0]) for flight in self.cast.recorded]
 
     def _dark(self) -> tuple[float, float]:

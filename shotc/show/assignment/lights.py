@@ -112,9 +112,9 @@ def with_effects(
             looks.append(Look(layers, one.scene.spare))
     for display in displays:
         over += _of_display(mission, display, pictures, images, faults_of_lights)
-    kept = (row.of for row in rows.values())
+    frames = (row.of for row in rows.values())
     of = tuple(
-        -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in kept
+        -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in frames
     )
     return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), faults_of_lights
 

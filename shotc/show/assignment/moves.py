@@ -197,5 +197,5 @@ def _proved(ends: Ends, move: ArcMove, apart: Apart) -> bool:
     return keeps(closest(breaks, coef, apart).proven, apart.across)
 
 
-def _gaps(least: list[float], kept: float) -> Gaps:
-    return Gaps(*(max(1.0, d / kept) for d in least))
+def _gaps(least: list[float], separation: float) -> Gaps:
+    return Gaps(*(max(1.0, d / separation) for d in least))

@@ -105,7 +105,7 @@ def _need(
     """
     away, there = ends[0] - pivot, ends[1] - pivot
     # The order is drone by drone, because consecutive places are looked up together.
-    ways = pivot + places[:, :1] * away[:, None] + places[:, 1:] * there[:, None]
-    need = surroundings.up(ways.reshape(-1, 3), every=every).reshape(len(away), -1).max(axis=0)
+    points = pivot + places[:, :1] * away[:, None] + places[:, 1:] * there[:, None]
+    need = surroundings.up(points.reshape(-1, 3), every=every).reshape(len(away), -1).max(axis=0)
     need[1:-1] = np.maximum(need[1:-1], np.maximum(need[:-2], need[2:]))
     return np.asarray(need)

@@ -95,8 +95,8 @@ def spans(crossings: Crossings, parity: bool) -> ColumnPieces:
     sign = np.ones(len(order), dtype=np.intp) if parity else crossings.sign[order]
     ends = np.bincount(column, sign, minlength=1) if len(column) else np.zeros(1)
     whole = (ends % 2 == 0) if parity else (ends == 0)
-    kept = whole[column]
-    column, height, winding = column[kept], height[kept], np.cumsum(sign[kept])
+    chosen = whole[column]
+    column, height, winding = column[chosen], height[chosen], np.cumsum(sign[chosen])
     inside = np.flatnonzero((winding % 2 != 0) if parity else (winding != 0))
     return ColumnPieces(column[inside], height[inside], height[inside + 1])
 

@@ -68,7 +68,7 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
         pair is a little too near in the odd row, both half-planes are moved outwards by what it lacks.
     """
     motion = _FleetMotion(before, after, scalars)
-    found: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
+    normals_of: list[list[list[Array]]] = [[[], []] for _ in scalars[::2]]
     least = REACH_RATIO
     for middle in range(1, len(scalars), 2):
         gaps = motion.gaps(middle)
@@ -80,12 +80,12 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
         apart = np.where(flat, across[1], along[1])
         share = np.where(apart > NEARLY_APART, np.minimum(apart, 1.0), 1.0)[:, None]
         for time in (middle - 1, middle + 1):
-            normals = found[time // 2]
+            normals = normals_of[time // 2]
             normals[0].append(share[flat] * gaps.of(flat).normals(scalars[time], slice(0, 2)))
             normals[1].append(share[~flat] * gaps.of(~flat).normals(scalars[time], slice(2, 3)))
     rows = [
         (time, upright, _needed(np.concatenate(both[upright])))
-        for time, both in enumerate(found)
+        for time, both in enumerate(normals_of)
         for upright in (0, 1)
     ]
     count = [len(normals) for _, _, normals in rows]

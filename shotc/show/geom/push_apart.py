@@ -62,9 +62,11 @@ class Leash:
     lengths: Array
     looser: float = 0.0
 
-    def drawn(self, goals: Array, which: Numbers, done: int) -> Array:
-        """Return goals with those that are too far drawn back, after ``done`` iterations."""
-        return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / MOST_ROUNDS))
+    def drawn(self, goals: Array, which: Numbers, iterations: int) -> Array:
+        """Return goals with those that are too far drawn back, after ``iterations`` iterations."""
+        return leashed(
+            goals, self.shape, self.lengths[which] * (1.0 + self.looser * iterations / MOST_ROUNDS)
+        )
 
 
 def settled(
@@ -72,16 +74,16 @@ def settled(
 ) -> tuple[Array, bool]:
     """Return goals pushed apart until they are or no progress is made, and whether they are apart."""
     missing = float("inf")
-    for done in range(MOST_ROUNDS):
-        push, lacking = _pushes(goals, least, BEYOND_SHARE * (1.0 + done / 20), upright)
+    for iteration in range(MOST_ROUNDS):
+        push, lacking = _pushes(goals, least, BEYOND_SHARE * (1.0 + iteration / 20), upright)
         if not lacking:
             return goals, True
-        if done % STALLED_ROUNDS == 0:
+        if iteration % STALLED_ROUNDS == 0:
             if lacking > 0.95 * missing:
                 return goals, False
             missing = lacking
         moving = np.flatnonzero(np.any(push != 0.0, axis=1))
-        pushed = leash.drawn(goals[moving] + push[moving], moving, done)
+        pushed = leash.drawn(goals[moving] + push[moving], moving, iteration)
         goals = goals.copy()
         goals[moving] = hold(goals[moving], pushed)
     return goals, not _pushes(goals, least, BEYOND_SHARE, upright)[1]

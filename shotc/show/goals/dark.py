@@ -23,13 +23,13 @@ MOST_LAYERS = 100
 NORTH = np.array([0.0, 1.0, 0.0])
 
 
-def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = NORTH) -> Array | None:
+def dark_places(goals: Array, spare: int, setting: SpacingTask, facing: Array = NORTH) -> Array | None:
     """Return ``spare`` places behind goals (n, 3), shape (spare, 3); None if there is no room.
 
     facing : (3,), horizontal viewing direction for a picture without an audience
     """
     chosen_places: list[Array] = []
-    for places in _layers(shown, setting, _away(shown, setting, facing)):
+    for places in _layers(goals, setting, _away(goals, setting, facing)):
         chosen = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
         chosen_places.append(places[chosen])
         spare -= len(chosen)
@@ -38,34 +38,34 @@ def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = 
     return None
 
 
-def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
+def _layers(goals: Array, setting: SpacingTask, direction: Array) -> Iterator[Array]:
     """Yield the free places of one layer after another, in the order of use."""
-    across = np.array([-away[1], away[0], 0.0])
+    across = np.array([-direction[1], direction[0], 0.0])
     step = BEHIND_SPACINGS * setting.least
-    middle = shown.mean(axis=0)
-    columns = _steps((shown - middle) @ across, step)
-    rows = _steps(shown[:, 2] - middle[2], step / setting.stretch)
+    middle = goals.mean(axis=0)
+    columns = _steps((goals - middle) @ across, step)
+    rows = _steps(goals[:, 2] - middle[2], step / setting.stretch)
     sheet = middle + np.array([a * across + [0.0, 0.0, z] for z in rows for a in columns])
 
     def free(layer: int, side: Array) -> Array:
-        depth = float(((shown - middle) @ side).max())
+        depth = float(((goals - middle) @ side).max())
         places = sheet + (depth + layer * step) * side
         return np.asarray(places[setting.surroundings.lack(places) <= 0])
 
     blocked = False
     for layer in range(1, MOST_LAYERS + 1):
-        behind = free(layer, away)
+        behind = free(layer, direction)
         if not len(behind) and not blocked:
             blocked = True
-            yield free(1, -away)
+            yield free(1, -direction)
         yield behind
 
 
-def _away(shown: Array, setting: SpacingTask, facing: Array) -> Array:
+def _away(goals: Array, setting: SpacingTask, facing: Array) -> Array:
     """Return the horizontal viewing direction of the picture, (3,)."""
     if setting.viewpoint is None:
         return facing
-    east, north = (shown.mean(axis=0) - setting.viewpoint)[:2]
+    east, north = (goals.mean(axis=0) - setting.viewpoint)[:2]
     length = hypot(east, north)
     return np.array([east / length, north / length, 0.0]) if length > 1e-6 else facing
 

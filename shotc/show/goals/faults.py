@@ -79,21 +79,23 @@ def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> 
 
 
 def too_many(
-    mission: MissionIR, fleet: Fleet, picture: Picture, ways: PictureRemedies, setting: SpacingTask
+    mission: MissionIR, fleet: Fleet, picture: Picture, remedies: PictureRemedies, setting: SpacingTask
 ) -> Diagnostic:
     """Return D056: a fleet does not fit into a picture, with the number that would and other remedies."""
     message = f"{len(fleet.pads)} drones do not fit into the picture"
-    if ways.number is not None:
-        message += f"; about {ways.number} would"
+    if remedies.number is not None:
+        message += f"; about {remedies.number} would"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
-    return Diagnostic("D056", message, labels, (apart(setting),), _ways(fleet, ways, "show another picture"))
+    return Diagnostic(
+        "D056", message, labels, (apart(setting),), _ways(fleet, remedies, "show another picture")
+    )
 
 
 def too_dark(
     mission: MissionIR,
     fleet: Fleet,
     picture: Picture,
-    ways: PictureRemedies,
+    remedies: PictureRemedies,
     number: int,
     setting: SpacingTask,
 ) -> Diagnostic:
@@ -101,7 +103,7 @@ def too_dark(
     dark, full = len(fleet.pads) - number, len(fleet.pads)
     message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
-    help_ = _ways(fleet, ways, "make it larger")
+    help_ = _ways(fleet, remedies, "make it larger")
     return Diagnostic("D062", message, labels, (apart(setting),), help_)
 
 
@@ -114,15 +116,17 @@ def apart(setting: SpacingTask) -> str:
     return f"so that drones can pass each other on straight ways, goals are {far}"
 
 
-def _ways(fleet: Fleet, ways: PictureRemedies, otherwise: str) -> str:
+def _ways(fleet: Fleet, advice: PictureRemedies, otherwise: str) -> str:
     remedies = []
-    if ways.number is not None:
-        remedies.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")
-    if ways.size is not None:
-        remedies.append(f"make it {at_least(ways.size[1])} times as large (`{ways.size[0]}`)")
-    if ways.share is not None:
+    if advice.number is not None:
+        remedies.append(
+            f"use {advice.number} drone{'' if advice.number == 1 else 's'} (`count: {advice.number}`)"
+        )
+    if advice.size is not None:
+        remedies.append(f"make it {at_least(advice.size[1])} times as large (`{advice.size[0]}`)")
+    if advice.share is not None:
         full = (fleet.apart.across, fleet.apart.upright)
-        level, upright = (at_most(ways.share * distance - fleet.apart.margin) for distance in full)
+        level, upright = (at_most(advice.share * distance - fleet.apart.margin) for distance in full)
         remedies.append(f"keep a `separation` of {level} m, {upright} m vertically")
     return ", or ".join(remedies) or otherwise
 

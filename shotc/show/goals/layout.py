@@ -270,8 +270,8 @@ class _Layouts:
         number = min(setting.number - 1, *(held_of(setting, frame, power) for frame in goals))
         while number >= max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number):
             few = replace(setting, number=number)
-            shown = self._goals(few, fill)
-            layout = None if isinstance(shown, Diagnostic) else self._apart(few, (fill, shown), dark=False)
+            placed = self._goals(few, fill)
+            layout = None if isinstance(placed, Diagnostic) else self._apart(few, (fill, placed), dark=False)
             if layout is not None and None not in layout.spaced:
                 frames = [_with_dark(frame, setting) for frame in layout.spaced if frame is not None]
                 return None if None in frames else layout._replace(spaced=tuple(frames), setting=setting)

@@ -84,14 +84,14 @@ def lit(strokes: Strokes) -> Lit:
     if goals is not None:
         return goals
     flat, dense = strokes.most()
-    shown = strokes.placed(flat)
-    spare = strokes.setting.number - len(shown)
+    goals_lit = strokes.placed(flat)
+    spare = strokes.setting.number - len(goals_lit)
     few = spare > MOST_DARK_SHARE * strokes.setting.number
-    dark = shown[:0] if spare == 0 else None
+    dark = goals_lit[:0] if spare == 0 else None
     if spare and not few:
-        dark = dark_places(shown, spare, strokes.setting, strokes.body.axes[1])
-    points = shown if dark is None else np.concatenate([shown, dark])
-    return Lit(points, len(shown), dense)
+        dark = dark_places(goals_lit, spare, strokes.setting, strokes.body.axes[1])
+    points = goals_lit if dark is None else np.concatenate([goals_lit, dark])
+    return Lit(points, len(goals_lit), dense)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -85,14 +85,14 @@ def _of_torus(source: Torus, fill: Fill, count: int, rng: np.random.Generator) -
     """Return points of the ring, uniform in volume or surface: of random places around the tube, outer ones
     are kept more often.
     """
-    kept = np.zeros((0, 2))
-    while len(kept) < count:
+    points = np.zeros((0, 2))
+    while len(points) < count:
         round_tube = 2.0 * np.pi * rng.random(2 * count)
         depth = source.tube * (np.sqrt(rng.random(2 * count)) if fill == "volume" else np.ones(2 * count))
         out = depth * np.cos(round_tube)
         often = rng.random(2 * count) * (source.radius + source.tube) < source.radius + out
-        kept = np.concatenate([kept, np.column_stack([out, depth * np.sin(round_tube)])[often]])
-    out, up = kept[:count].T
+        points = np.concatenate([points, np.column_stack([out, depth * np.sin(round_tube)])[often]])
+    out, up = points[:count].T
     turn = 2.0 * np.pi * rng.random(count)
     reach = source.radius + out
     return np.column_stack([reach * np.cos(turn), reach * np.sin(turn), up])

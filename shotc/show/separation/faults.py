@@ -43,12 +43,12 @@ def standing_too_near(
     mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, nearest: Nearest
 ) -> Diagnostic:
     """Return D085: two places of one picture, or two pads, are too near."""
-    shown = _shown(flight, nearest.time)
-    where = "on or over its pads" if shown is None else f"in display `{shown.display}`"
-    path = fleet.path if shown is None else _path(mission, shown)
+    frame = _shown(flight, nearest.time)
+    where = "on or over its pads" if frame is None else f"in display `{frame.display}`"
+    path = fleet.path if frame is None else _path(mission, frame)
     share = at_least(fleet.apart.across / max(nearest.attained, 1e-3))
     larger = f"make the picture {share} times as large, or use fewer drones"
-    change = wider(mission, fleet, spacing(fleet.apart)) if shown is None else larger
+    change = wider(mission, fleet, spacing(fleet.apart)) if frame is None else larger
     return Diagnostic(
         "D085",
         f"two drones of `{fleet.name}` stand {nearest.attained:.2f} m apart {where}, "
@@ -192,8 +192,8 @@ def _shown(flight: FleetTrajectory, time: float) -> FrameTimes | None:
     first, last = flight.phases[0].end, flight.phases[-2].start
     if time <= first or time > last:
         return None
-    return next((shown for shown in flight.shown if shown.end >= time - 1e-9), None)
+    return next((frame for frame in flight.shown if frame.end >= time - 1e-9), None)
 
 
-def _path(mission: MissionIR, shown: FrameTimes) -> KeyPath:
-    return mission.display(shown.display).pictures[shown.picture].path
+def _path(mission: MissionIR, frame: FrameTimes) -> KeyPath:
+    return mission.display(frame.display).pictures[frame.picture].path

@@ -34,7 +34,7 @@ def later_start(
 
 
 def _words(flight: FleetTrajectory, seconds: float) -> str:
-    displays = list(dict.fromkeys(shown.display for shown in flight.shown))
+    displays = list(dict.fromkeys(frame.display for frame in flight.shown))
     start = at_least(flight.shown[0].start + seconds)
     if len(displays) == 1 and len({s.picture for s in flight.shown}) == 1:
         return (
@@ -51,7 +51,7 @@ def _waited_for(mission: MissionIR, flight: FleetTrajectory) -> bool:
     """Tell whether a fleet waits for others, or others for it: a delay would then change other
     flights too.
     """
-    own = {shown.display for shown in flight.shown}
+    own = {frame.display for frame in flight.shown}
     ties = ((d.id in own) != (d.timing.after in own) for d in mission.displays if d.timing.after is not None)
     return any(ties)
 

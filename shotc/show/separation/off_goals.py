@@ -38,7 +38,7 @@ def farthest(flight: FleetTrajectory, reference: Array) -> GoalDistance:
     reference : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
         point for the break at which it is shown (``geom.fleet_spline.centres``).
     """
-    times = np.array([shown.start for shown in flight.shown])
+    times = np.array([each.start for each in flight.shown])
     at = np.abs(flight.breaks[:, None] - times).argmin(axis=0)
     goals = reference[:, at + 1]
     off = np.linalg.norm(places(flight.breaks, flight.coef, times) - goals, axis=2)

@@ -118,18 +118,18 @@ class Keeper:
         if standing is not None:
             self.faults.append(standing_too_near(self.mission, self.fleet, self.flight, standing))
             return
-        free, done = self._free(breaks), Pushed(None, 0, 0.0)
+        free, push = self._free(breaks), Pushed(None, 0, 0.0)
         if free.start < free.stop:
-            done = pushed(breaks, coef, self.fleet, self.ctx.seed, free=free)
-        self.rounds += done.rounds
-        if done.coef is None and recorded is not None:
-            tried = RepairAttempts(nearest, max(nearest.proven, done.reached), None)
+            push = pushed(breaks, coef, self.fleet, self.ctx.seed, free=free)
+        self.rounds += push.rounds
+        if push.coef is None and recorded is not None:
+            tried = RepairAttempts(nearest, max(nearest.proven, push.reached), None)
             self.faults.append(recorded_too_near(self.mission, self.fleet, recorded, tried))
             return
-        if done.coef is None:
-            self.faults.append(self._too_near(window, nearest, done))
+        if push.coef is None:
+            self.faults.append(self._too_near(window, nearest, push))
             return
-        self.coef[:, window.points] = done.coef
+        self.coef[:, window.points] = push.coef
 
     def _free(self, breaks: Array) -> slice:
         """Return the control points of a stretch that may change.
@@ -142,12 +142,12 @@ class Keeper:
         last = int(np.searchsorted(breaks, down - NEAR_S)) if down > breaks[0] + NEAR_S else len(breaks) - 1
         return slice(DEGREE + first, min(last, len(breaks) - 1))
 
-    def _too_near(self, window: Window, nearest: Nearest, done: Pushed) -> Diagnostic:
+    def _too_near(self, window: Window, nearest: Nearest, push: Pushed) -> Diagnostic:
         stretch = MoveBetweenStops.of(
             self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points]
         )
         seconds = longer(stretch, self.fleet, self.ctx)
-        best = max(nearest.proven, done.reached)
+        best = max(nearest.proven, push.reached)
         return too_near(self.mission, self.fleet, stretch, RepairAttempts(nearest, best, seconds))
 
     def _standing(self, window: Window) -> Nearest | None:

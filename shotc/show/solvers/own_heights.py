@@ -103,7 +103,7 @@ def own_heights(task: OwnHeightsTask, pivot: Array) -> ArcMove | None:
     unit = least_before_and_after(before, after)
     before, after = before / unit, after / unit
     ctrl, busy = _first(drones), set[int]()
-    best, found = inf, None
+    best, best_ctrl = inf, None
     for number in range(MOST_ROUNDS):
         planes = cylinder_planes(before, after, _at(ctrl))
         piece = float(drones.least_pieces(ctrl))
@@ -111,7 +111,7 @@ def own_heights(task: OwnHeightsTask, pivot: Array) -> ArcMove | None:
         free = planes.least >= 1.0 - LACK_SHARE and _beyond(task, pivot, ctrl) <= BEYOND_M
         gain = 1.0 - piece / best
         if number and free and gain > 0.0:
-            best, found = piece, ctrl
+            best, best_ctrl = piece, ctrl
         if gain < WORTH_SHARE:
             break
         busy |= _busiest(drones, ctrl)
@@ -122,10 +122,10 @@ def own_heights(task: OwnHeightsTask, pivot: Array) -> ArcMove | None:
         if solved is None:
             break
         ctrl = solved
-    if found is None:
+    if best_ctrl is None:
         return None
-    binding = drones.binding(found)
-    return ArcMove(found[:, :2], found[:, 2:], pivot, binding.ticks, binding.limit, binding.drone)
+    binding = drones.binding(best_ctrl)
+    return ArcMove(best_ctrl[:, :2], best_ctrl[:, 2:], pivot, binding.ticks, binding.limit, binding.drone)
 
 
 def _first(drones: Drones) -> Array:
@@ -235,9 +235,9 @@ class _Programme:
         status, x = self._rows.solve(cost, TOLERANCE, near=near)
         if status not in USABLE:
             return None
-        found = x[:TOP].reshape(SCALARS, POINTS).T.copy()
-        found[:FIXED_POINTS], found[-FIXED_POINTS:] = ctrl[0], ctrl[-1]
-        return found
+        moved = x[:TOP].reshape(SCALARS, POINTS).T.copy()
+        moved[:FIXED_POINTS], moved[-FIXED_POINTS:] = ctrl[0], ctrl[-1]
+        return moved
 
 
 def _height_bounds(task: OwnHeightsTask, pivot: Array) -> list[tuple[float, Array]]:

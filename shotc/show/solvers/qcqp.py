@@ -216,7 +216,7 @@ class FleetProgramme:
         iterations.
         """
         state = _Iterates.of(self, reference)
-        done = np.zeros(len(reference), dtype=bool)
+        solved = np.zeros(len(reference), dtype=bool)
         result, active, rounds = reference.copy(), np.arange(len(reference)), 0
         levels = np.full(len(reference), len(STEP_RATIOS) // 2)
         while len(active) and rounds < MOST_ROUNDS:
@@ -225,13 +225,13 @@ class FleetProgramme:
                 some = active[levels[active] == level]
                 primal, dual = state.iterate(some, int(level))
                 finished = (primal < 1.0) & (dual < 1.0)
-                done[some[finished]] = True
+                solved[some[finished]] = True
                 ratio = np.sqrt(primal.clip(1e-3) / dual.clip(1e-3))
                 change = np.rint(np.log(ratio) / np.log(STEP_RATIOS[1] / STEP_RATIOS[0])).astype(int)
                 levels[some] = np.clip(level + change, 0, len(STEP_RATIOS) - 1)
-            active = np.flatnonzero(~done)
+            active = np.flatnonzero(~solved)
         result[:, self.within] = state.points()
-        return Optimum(result, done, rounds * ROUND_ITERATIONS)
+        return Optimum(result, solved, rounds * ROUND_ITERATIONS)
 
     def solve_exactly(self, reference: Array) -> Array | None:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""

@@ -36,7 +36,7 @@ def too_quick(
 
 def picture_at(mission: MissionIR, flight: FleetTrajectory, time: float) -> KeyPath:
     """Return the path of the picture that is shown at a time or next, or else of the fleet."""
-    for shown in flight.shown:
-        if shown.end >= time - 1e-9:
-            return mission.display(shown.display).pictures[shown.picture].path
+    for frame in flight.shown:
+        if frame.end >= time - 1e-9:
+            return mission.display(frame.display).pictures[frame.picture].path
     return mission.fleet(flight.fleet).path

@@ -167,7 +167,7 @@ def _least_upright(one: Array, other: Array) -> Array:
 
 
 def _size(one: Array, other: Array, share: Array, upright: bool) -> Array:
-    away = one + share[:, None] * (other - one)
+    offset = one + share[:, None] * (other - one)
     if upright:
-        return np.asarray(np.maximum(np.linalg.norm(away[:, :2], axis=1), np.abs(away[:, 2])))
-    return np.asarray(np.linalg.norm(away, axis=1))
+        return np.asarray(np.maximum(np.linalg.norm(offset[:, :2], axis=1), np.abs(offset[:, 2])))
+    return np.asarray(np.linalg.norm(offset, axis=1))

@@ -125,7 +125,7 @@ def _reference(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> A
     if keyed is None:
         factor = _factor(subject, t, pose)
         return 2.0 * np.arctan(np.tan(reference / 2) * factor) if (factor != 1.0).any() else reference
-    away = np.linalg.norm(seen_at(subject, t)[:, 0] - pose[:, :3], axis=1)
+    distance = np.linalg.norm(seen_at(subject, t)[:, 0] - pose[:, :3], axis=1)
     for stretch in keyed.stretches:
         a, b = stretch.a, stretch.b
         if not stretch.follows or abs(a.hfov - b.hfov) <= SAME_SHARE * max(a.hfov, b.hfov):
@@ -135,7 +135,7 @@ def _reference(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> A
         there = np.linalg.norm(seen_at(subject, ends)[:, 0] - leg.curve(ends)[:, :3], axis=1)
         first, last = (log(d * np.tan(k.hfov / 2)) for d, k in zip(there, (a, b), strict=True))
         spread = first + (last - first) * stretch.share(t[inside])
-        reference[inside] = 2.0 * np.arctan(np.exp(spread) / away[inside])
+        reference[inside] = 2.0 * np.arctan(np.exp(spread) / distance[inside])
     return reference
 
 

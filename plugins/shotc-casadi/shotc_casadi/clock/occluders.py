@@ -56,11 +56,11 @@ class Occluder:
 
     def occlusion(self, eyes: Array, points: Array) -> Array:
         """Return d_v of lines of sight, > 0 if hidden, (N + 1,); -inf if the point is before the horizon."""
-        ray, away = (points - eyes) @ self.scale.T, (self.centres - eyes) @ self.scale.T
+        ray, to_centre = (points - eyes) @ self.scale.T, (self.centres - eyes) @ self.scale.T
         beyond = (points - self.centres) @ self.scale.T
         square = np.maximum((ray**2).sum(axis=1), 1e-12)
-        horizon = (away**2).sum(axis=1) - 1.0
-        along = (ray * away).sum(axis=1)
+        horizon = (to_centre**2).sum(axis=1) - 1.0
+        along = (ray * to_centre).sum(axis=1)
         counts = (along > horizon) & (horizon > ROOM_DV) & ((beyond**2).sum(axis=1) > 1.0 + ROOM_DV)
         return np.where(counts & self.apart, along**2 / square - horizon, -np.inf)
 
@@ -136,8 +136,8 @@ def farthest_past(references: ClockReferences, filmed: Mask) -> float:
 
     Verification accepts a share of the distance to the nearest subject.
     """
-    away = np.linalg.norm(references.centres - references.ideal[:, None], axis=2).min(axis=1)
-    return PICTURE_SHARE * float(away[filmed].max(initial=0.0))
+    distances = np.linalg.norm(references.centres - references.ideal[:, None], axis=2).min(axis=1)
+    return PICTURE_SHARE * float(distances[filmed].max(initial=0.0))
 
 
 def _reach_past(references: ClockReferences, eyes: Array, filmed: Mask) -> Array:

@@ -40,33 +40,33 @@ class _Edges(NamedTuple):
     high: Any
 
 
-def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> SubjectOutline:
+def outline(camera: View, offset: Any, far: Any, solid: tuple[Any, Any]) -> SubjectOutline:
     """Return the outline of a cylinder.
 
     A cylinder that is not completely in front of the camera is moved along the camera's axis until it is.
 
-    away : its centre minus the camera, W, metres
-    far : the length of ``away``, not zero
+    offset : its centre minus the camera, W, metres
+    far : the length of ``offset``, not zero
     solid : radius and height, metres
     """
     radius, height = solid
     reach = height / 2 * length(camera.sin_pitch, UPRIGHT_SINE) + radius * length(
         camera.cos_pitch, UPRIGHT_SINE
     )
-    centre = _before(camera, away, far, reach)
+    centre = _before(camera, offset, far, reach)
     u, v, _ = camera.project((centre[0], centre[1], centre[2]))
     box = _cylinder(camera, centre, far, solid)
     return SubjectOutline(ca.vertcat(u, v), *box)
 
 
-def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> SubjectOutline:
+def outline_of(camera: View, offset: Any, far: Any, bodies: Sequence[Extent]) -> SubjectOutline:
     """Return the outline of several bodies as one.
 
-    away : of their common centre; other arguments as in ``outline``
+    offset : of their common centre; other arguments as in ``outline``
     """
     reaches = [_towards(camera, body) - ca.dot(_axis(camera), body.offset) for body in bodies]
     reach = -reduce(partial(lesser, apart=DEEP_SHARE * far), [-reach for reach in reaches])
-    centre = _before(camera, away, far, reach)
+    centre = _before(camera, offset, far, reach)
     u, v, _ = camera.project((centre[0], centre[1], centre[2]))
     boxes = [box for body in bodies for box in _boxes(camera, centre + body.offset, far, body)]
     return SubjectOutline(ca.vertcat(u, v), *_union(boxes))
@@ -128,14 +128,14 @@ def _towards(camera: View, body: Extent) -> Any:
     return reach
 
 
-def _before(camera: View, away: Any, far: Any, reach: Any) -> Any:
+def _before(camera: View, offset: Any, far: Any, reach: Any) -> Any:
     """Return an offset moved along the camera's axis until the subject is in front; else almost unchanged.
 
     reach : how far the subject reaches from its centre towards the camera's image plane, metres
     """
     axis = _axis(camera)
-    depth = ca.dot(axis, away) - reach
-    return away + 0.5 * (length(depth, DEEP_SHARE * far) - depth) * axis
+    depth = ca.dot(axis, offset) - reach
+    return offset + 0.5 * (length(depth, DEEP_SHARE * far) - depth) * axis
 
 
 def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Edges:

@@ -66,19 +66,21 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     given = cut(subject, FIELDS)
     radius, height = given["solid"][0], given["solid"][1]
     camera = View(ca.cos(aim[0]), ca.sin(aim[0]), ca.cos(aim[1]), ca.sin(aim[1]), lens[0], lens[1])
-    away = given["centre"] - eye
-    far = ca.sqrt(ca.sumsqr(away) + TINY_M2)
-    flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP_SHARE * far) ** 2)
+    offset = given["centre"] - eye
+    far = ca.sqrt(ca.sumsqr(offset) + TINY_M2)
+    flat = ca.sqrt(ca.sumsqr(offset[:2]) + (STEEP_SHARE * far) ** 2)
     rows = [subject[at : at + EXTENT_PARAMETERS] for at in range(SUBJECT, subject.numel(), EXTENT_PARAMETERS)]
     bodies = [Extent.of(row) for row in rows]
-    seen = outline_of(camera, away, far, bodies) if bodies else outline(camera, away, far, (radius, height))
+    seen = (
+        outline_of(camera, offset, far, bodies) if bodies else outline(camera, offset, far, (radius, height))
+    )
     edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE_SHARE
     return ca.vertcat(
         given["placed"] * (seen.place - given["uv"]),
         given["sized"] * ca.log(0.5 * (seen.high - seen.low) / given["size"]),
         given["whole"] * ca.fmax(0.0, edges),
-        given["viewed"][0] * (-away / far - given["toward"]),
-        given["viewed"][1] * (-away[:2] / flat - given["toward"][:2]),
-        given["viewed"][2] * (ca.atan2(-away[2], flat) - given["elevation"]),
-        given["level"] * away[2] / far,
+        given["viewed"][0] * (-offset / far - given["toward"]),
+        given["viewed"][1] * (-offset[:2] / flat - given["toward"][:2]),
+        given["viewed"][2] * (ca.atan2(-offset[2], flat) - given["elevation"]),
+        given["level"] * offset[2] / far,
     )

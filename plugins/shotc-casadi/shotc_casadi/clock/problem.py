@@ -158,7 +158,7 @@ def problem(
     if windy:
         flat.append(np.tile(use.share * np.array(limits.wind), (len(breaks), 1)))
     moves = start[1][:, : sizes.moves]
-    made = ClockProblem(
+    bare = ClockProblem(
         sizes,
         np.column_stack([_parameters(subject, breaks, references), _for_nodes(table), *flat]),
         _unit(references),
@@ -169,7 +169,7 @@ def problem(
         (np.full(3, -inf), np.array([speed, acceleration, 1.0])),
         (low, high),
     )
-    return replace(made, inputs=np.column_stack([moves, made.units[:, sizes.moves :]]))
+    return replace(bare, inputs=np.column_stack([moves, bare.units[:, sizes.moves :]]))
 
 
 def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tuple[Array, Array]:
@@ -223,8 +223,8 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
         drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
         angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
         angles[:, 2:] *= paid * weights.SUBJECTS_WEIGHT * _shared(length)[:, None]
-        away = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
-        share = viewpoint.NEAR_WEIGHT / np.maximum(away, 1.0)
+        distance = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
+        share = viewpoint.NEAR_WEIGHT / np.maximum(distance, 1.0)
         place = np.where(filmed, weights.SUBJECTS_WEIGHT * share**2, place)
         ideal, leash = np.where(filmed[:, None], drawn, ideal), 0.0
     values = {

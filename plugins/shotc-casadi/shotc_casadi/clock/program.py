@@ -53,17 +53,17 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
 
     inputs : shape (N, sizes.moves), without those slacks
     """
-    sizes, made = task.sizes, derived(task.sizes)
+    sizes, functions = task.sizes, derived(task.sizes)
     u = np.zeros((len(inputs), sizes.inputs))
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
-    rows = np.array(made.rows.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[1])
+    rows = np.array(functions.rows.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[1])
     lack = np.maximum(-rows[len(HELD) + sizes.limits + CONTROL_POINTS * sizes.planes :].T, 0.0)
     if sizes.occluders:
         u[:, sizes.moves] = lack[:, : sizes.occluders].max(axis=1)
     if sizes.bodies:
         u[:, -1] = lack[:, sizes.occluders :].max(axis=1)
-    value = made.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)
-    last = made.last_cost(states[-1], task.parameters[-1])
+    value = functions.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)
+    last = functions.last_cost(states[-1], task.parameters[-1])
     return (float(np.array(value).sum()) + float(last)) / task.unit
 
 

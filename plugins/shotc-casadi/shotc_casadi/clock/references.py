@@ -152,12 +152,12 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
     keyed = subject.camera_task.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres, reach = seen_at(subject, t), _reach(subject, t, ideal)
-    shown = pictured(
+    rows = pictured(
         subject.mission, subject.framed if subject.together else (), centres, t, subject.leg.start
     )
     if subject.held_whole:
         shape = shapes(subject.mission.target(subject.framed[0].target), t)
-        shown = where_it_fits(shown, shape, subject.drone, (ideal, reach))
+        rows = where_it_fits(rows, shape, subject.drone, (ideal, reach))
     unwatched = ClockReferences(
         ideal=ideal,
         target=np.column_stack([ideal + np.array([NO_SUBJECT_M, 0.0, 0.0]), np.zeros((n, 9))]),
@@ -167,7 +167,7 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
         placed=placed,
         yields=False,
         centres=centres,
-        subjects=shown,
+        subjects=rows,
         sight_lines=np.zeros((n, 0, SIGHT_LINE_PARAMETERS)),
         bodies=np.zeros((n, 0, BODY_PARAMETERS)),
     )
@@ -197,8 +197,8 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     times = (t[:-1] + share * np.diff(t)).ravel()
     between = _ideal_at(subject, times)
     straight = (ideal[:-1] + share[:, :, None] * np.diff(ideal, axis=0)).reshape(-1, 3)
-    away = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
-    far = away.min(axis=1) if subject.framed else UNWATCHED
+    distances = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
+    far = distances.min(axis=1) if subject.framed else UNWATCHED
     free = PREFERRED_SHARE * far - np.linalg.norm(between - straight, axis=1)
     stages = (
         np.where((times >= leg.start) & (times < leg.end), free, np.inf)

@@ -165,10 +165,10 @@ def _deviations(
     leg = subject.leg
     t = np.append(np.arange(leg.start, leg.end, STEP_S), leg.end)
     ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
-    away = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
+    deviation = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1)
     return tuple(
-        ClockDeviation(leg.shot, float(away[k]), float(t[k]), _cause(before, float(t[k]), why))
-        for k in worst_of_runs(away, LEFT_M, NOTICE_M)
+        ClockDeviation(leg.shot, float(deviation[k]), float(t[k]), _cause(before, float(t[k]), why))
+        for k in worst_of_runs(deviation, LEFT_M, NOTICE_M)
     )
 
 

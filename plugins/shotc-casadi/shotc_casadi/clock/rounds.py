@@ -162,8 +162,8 @@ def refine_clock(
     """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
-    shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
-    shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), shown, unseen, bounded)
+    filmed = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
+    shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), filmed, unseen, bounded)
     now = _begun(shot)
     while not now.ended and now.rounds < MOST_ROUNDS:
         now = _next(shot, now)

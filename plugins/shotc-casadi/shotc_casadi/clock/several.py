@@ -94,9 +94,9 @@ def where_it_fits(rows: Array, shape: TargetShape, drone: Drone, goes: tuple[Arr
     there = (offset[:, 0], offset[:, 1], offset[:, 2])
     left, right, low, high = shape.bounds(camera, there)
     fits = np.maximum(right - left, high - low) <= 2.0 * viewpoint.EDGE_SHARE
-    kept = rows.copy()
-    kept[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(shape.radius, shape.height / 2))
-    return kept
+    fitting = rows.copy()
+    fitting[:, 0, WHOLE] *= fits & (np.linalg.norm(offset, axis=1) > np.hypot(shape.radius, shape.height / 2))
+    return fitting
 
 
 def angles(curve: Piecewise, breaks: Array) -> Array:

@@ -77,13 +77,15 @@ def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) ->
     return tuple(over)
 
 
-def _across(directions: Array, away: Array) -> Array:
-    """Return unit vectors across ways (M, 2) on the side of ``away``; ``away`` itself if it is along."""
+def _across(directions: Array, outward: Array) -> Array:
+    """Return unit vectors across ways (M, 2) on the side of ``outward``; itself where it is along."""
     across = np.column_stack([-directions[:, 1], directions[:, 0]])
     length = np.linalg.norm(across, axis=1)[:, None]
     across = across / np.maximum(length, 1e-6)
-    across *= np.sign(across @ away)[:, None]
-    return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG_SHARE), across, away))
+    across *= np.sign(across @ outward)[:, None]
+    return np.asarray(
+        np.where((length > 1e-3) & ((across @ outward)[:, None] > ALONG_SHARE), across, outward)
+    )
 
 
 def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Overflight]) -> HalfSpaces:

@@ -150,12 +150,12 @@ def stage(sizes: Sizes) -> StageSymbols:
     """
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(sizes))
     x, u = z[: sizes.states], z[sizes.states :]
-    given, walls, sight_lines, near, shown = _parameters(p, sizes)
+    given, walls, sight_lines, near, subjects = _parameters(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
     moved = _integrated(x[:PLACE_STATES], jerk, h)
     off = ca.sumsqr(place - given["ideal"])
-    aimed = _aims_at_several(x, u, given, shown) if sizes.subjects else _aims_at_one(x, u, given)
+    aimed = _aims_at_several(x, u, given, subjects) if sizes.subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
     occlusions = [
         occlusion(line[:OCCLUDER_PARAMETERS], place, line[OCCLUDER_PARAMETERS:]) for line in sight_lines
@@ -216,12 +216,12 @@ def _aims_at_one(x: Any, u: Any, given: Mapping[str, Any]) -> _Aimed:
     return _Aimed(ca.vertcat(*turned), given["price"] * u[SLACK], limits=limits)
 
 
-def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[Any]) -> _Aimed:
+def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], subjects: Sequence[Any]) -> _Aimed:
     """Return the terms of a camera with several subjects; the camera's angles are states."""
     turns = u[CAMERA_JERK]
     moved = (_integrated(x[k : k + 3], turns[i], given["length"]) for i, k in enumerate((YAW, PITCH)))
     turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
-    off = (residuals(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
+    off = (residuals(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in subjects)
     # Conflicting references leave large residuals; on these Gauss-Newton needs many steps.
     node = given["picture"] * sum(map(ca.sumsqr, off)) + _off_drawn(x[YAW], x[PITCH], given["drawn"])
     return _Aimed(turned, node=node, moved=tuple(moved))
@@ -265,8 +265,8 @@ def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
     eye, point : camera and the point that it looks at, W, metres
     """
     scale, centre = ca.reshape(occluder[:9], 3, 3), occluder[9:12]
-    ray, away = scale @ (point - eye), scale @ (centre - eye)
-    return occluder[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY_SQUARE)
+    ray, to_centre = scale @ (point - eye), scale @ (centre - eye)
+    return occluder[12] - ca.sumsqr(ca.cross(to_centre, ray)) / (ca.sumsqr(ray) + TINY_SQUARE)
 
 
 def inside(body: Any, eye: Any) -> Any:

@@ -36,8 +36,8 @@ class ShotChase:
     def __init__(self, problem: ChaseProblem, stop_rule: StopRule = WARM) -> None:
         """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
         self._weights, self._until = problem.weights, stop_rule
-        made = partial(_horizon, stages=problem.horizon.stages)
-        self._flight = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
+        horizon_of = partial(_horizon, stages=problem.horizon.stages)
+        self._flight = ShotSolvers(problem.keeping, problem.horizon, horizon_of, self._begin)
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
         """Plan from the measured state: one step from the last plan, or up to 30 without one."""

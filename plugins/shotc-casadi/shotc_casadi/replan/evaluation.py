@@ -106,7 +106,7 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> HorizonFunc
     motion = [inputs, states, merit, ca.fmax(ca.mmax(lack[0, :]), late)]
     derivatives = _derived(s, n, prices.damping)
     before = ca.horzcat(x0, states[:, :-1])
-    gradient, hessian, rows, kept, onward, driven, low, high = derivatives.function(
+    gradient, hessian, rows, row_slopes, onward, driven, low, high = derivatives.function(
         before, inputs, states, p, g
     )
     counts = tuple(each.numel() for each in s.rows)
@@ -118,7 +118,7 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> HorizonFunc
         _taken(laid.cost.order, [hessian]),
         _with_slack(gradient, s, ca.repmat(price, 1, n) * unit),
         _taken(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
-        _taken(laid.bound.order, [kept, end.slopes, _each(unit, counts, s.ends.numel())]),
+        _taken(laid.bound.order, [row_slopes, end.slopes, _each(unit, counts, s.ends.numel())]),
         -ca.vertcat(ca.vec(rows), end.rows),
         _with_slack(low, s, slack),
         _with_slack(high, s, slack + ca.inf),
@@ -224,19 +224,19 @@ def _derived(s: StageExpressions, stages: int, damping: float) -> _Derivatives:
     slope = ca.jacobian(s.residuals, w)
     squares = ca.triu(2 * slope.T @ slope + damping * ca.SX.eye(w.numel()))
     rows = ca.vertcat(*s.rows, s.firm)
-    kept = ca.jacobian(rows, w)
+    row_slopes = ca.jacobian(rows, w)
     onward, driven = ca.jacobian(s.following, s.x), ca.jacobian(s.following, s.u)
     bounds = [ca.vertcat(i, y) - w for i, y in zip(s.inputs, s.states, strict=True)]
     out = [
         2 * slope.T @ s.residuals,
         _values(squares),
         rows,
-        _values(kept),
+        _values(row_slopes),
         _values(onward),
         _values(driven),
     ]
     one = _function("derived", [s.x, s.u, s.y, s.p, s.g], [*out, *bounds])
-    places = (_places(squares), _places(onward), _places(driven), _places(kept))
+    places = (_places(squares), _places(onward), _places(driven), _places(row_slopes))
     return _Derivatives(one.map("all_derived", "serial", stages, [4], [], {}), places)
 
 

@@ -83,18 +83,18 @@ class ShotSolvers:
         now = time + self.times[:-1] + SOON_S
         return np.asarray(np.maximum(np.searchsorted(last.times, now, side="right") - 1, 0))
 
-    def replan_of(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
+    def replan_of(self, solver: Solver, walk: Walk, time: float, widened: bool) -> Replan:
         """Return the result of steps from a measured state."""
-        motion = done.motion
+        motion = walk.motion
         if not (isfinite(motion.worst) and isfinite(motion.states.sum())):
             return Replan(None, "failed", BEYOND)
         states = np.concatenate([solver.evaluation.start[None], motion.states])
         aim = states[:, 6:8] if states.shape[1] > 6 else None
         times = np.asarray(self.times + time)
         plan = Plan(times, states[:, :3], states[:, 3:6], motion.inputs[:, :3], aim)
-        opened = done.opened or widened
-        status: Status = "stalled" if done.stalled else "opened" if opened else "planned"
-        return Replan(plan, status, "", motion.worst, done.steps)
+        opened = walk.opened or widened
+        status: Status = "stalled" if walk.stalled else "opened" if opened else "planned"
+        return Replan(plan, status, "", motion.worst, walk.steps)
 
     def _solver(self, of: RowCounts) -> Solver:
         if of not in self._solvers:

@@ -88,8 +88,8 @@ class Framing:
     def _flight(self, cast: Cast) -> ShotSolvers:
         if cast not in self._flights:
             problem = self._problem
-            made = partial(_horizon, cast=cast, stages=problem.horizon.stages)
-            self._flights[cast] = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
+            horizon_of = partial(_horizon, cast=cast, stages=problem.horizon.stages)
+            self._flights[cast] = ShotSolvers(problem.keeping, problem.horizon, horizon_of, self._begin)
         return self._flights[cast]
 
     def _begin(self, solver: Solver) -> None:

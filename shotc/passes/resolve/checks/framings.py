@@ -286,12 +286,14 @@ def _far_from_place(mission: MissionIR, course: StartedFraming) -> str | None:
     near = None if course.shot.ideal is None else course.shot.ideal.near
     if near is None:
         return None
-    away, t = max(
+    distance, t = max(
         (dist(pose[:3], near_at(mission, near, t)), t)
         for t, pose in zip(course.times, course.poses, strict=True)
     )
     turned, when = max((_turned(near, pose), t) for t, pose in zip(course.times, course.poses, strict=True))
-    reasons = [f"is {away:.1f} m from the place that it stays near at t = {t:.1f} s"] * (away > OFF_PLACE_M)
+    reasons = [f"is {distance:.1f} m from the place that it stays near at t = {t:.1f} s"] * (
+        distance > OFF_PLACE_M
+    )
     if turned > OFF_PLACE_RAD:
         reasons.append(
             f"looks {degrees(turned):.0f} deg beside the way that it stays near at t = {when:.1f} s"

@@ -181,8 +181,8 @@ def _more(least: float) -> tuple[str, str]:
     return f"give it more than {at_least(least, 1)} s", "write `timing: auto`"
 
 
-def _either(*ways: str) -> str:
-    return ", or ".join(filter(None, (", ".join(ways[:-1]), ways[-1])))
+def _either(*choices: str) -> str:
+    return ", or ".join(filter(None, (", ".join(choices[:-1]), choices[-1])))
 
 
 def _path_length_text(shot: Shot) -> str:

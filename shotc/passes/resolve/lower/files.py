@@ -114,22 +114,22 @@ def read_file(
     return data
 
 
-def _read_linked(kept: KeptFiles, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
+def _read_linked(files: KeptFiles, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
     """Return a file to which a plan links, from the first folder that has it unchanged, or its fault."""
     label, other = (origins.value(path),), None
-    for folder in kept.folders:
+    for folder in files.folders:
         data = read_file(folder, origins, name, path, MAX_LINKED_BYTES)
         if isinstance(data, bytes):
-            if sha256(data).hexdigest() == kept.linked[name]:
+            if sha256(data).hexdigest() == files.linked[name]:
                 return data
             other = other or folder
         elif data.code != "N008":
             return data
     if other is not None:
         message = f"`{name}` is not the file that the plan was made with"
-        note = f"{(other / name).as_posix()} has another SHA-256 than the plan says: {kept.linked[name]}"
+        note = f"{(other / name).as_posix()} has another SHA-256 than the plan says: {files.linked[name]}"
         return Diagnostic("N012", message, label, (note,), "bring back that file, or plan the mission again")
-    looked = " and in ".join(dict.fromkeys(folder.as_posix() for folder in kept.folders)) or "no folder"
+    looked = " and in ".join(dict.fromkeys(folder.as_posix() for folder in files.folders)) or "no folder"
     notes = (f"a plan holds its SHA-256, not the file itself; looked for it in {looked}",)
     help_ = "put it beside the plan, or where the mission was when it was planned"
     return Diagnostic("N011", f"the plan needs the file `{name}`, which is not there", label, notes, help_)

@@ -26,20 +26,20 @@ def _refused(kind: Kind, scene: Scene, fault: Exception | str) -> Expansion:
     return Expansion(diagnostics=(plugin_failed(f"kind `{kind.name}`", kind.package, fault, label),))
 
 
-def _wrong(made: Any) -> str:
+def _wrong(result: Any) -> str:
     """Return what is wrong with the form of an expansion; an empty text if nothing is."""
-    if not isinstance(made, Expansion):
-        return f"returned a {type(made).__name__}, not an Expansion"
-    parts: Any = ((made.keyframes, Keyframe), (made.subjects, Subject), (made.diagnostics, Diagnostic))
+    if not isinstance(result, Expansion):
+        return f"returned a {type(result).__name__}, not an Expansion"
+    parts: Any = ((result.keyframes, Keyframe), (result.subjects, Subject), (result.diagnostics, Diagnostic))
     for items, record in parts:
         if not isinstance(items, tuple) or not all(isinstance(item, record) for item in items):
             return f"returned something else than {record.__name__}s in a tuple"
-    ideal: Any = made.ideal
+    ideal: Any = result.ideal
     if not isinstance(ideal, Ideal | None):
         return f"returned a {type(ideal).__name__} as its ideal"
-    if not all(isfinite(number) for number in _numbers((made.keyframes, made.ideal, made.lasts))):
+    if not all(isfinite(number) for number in _numbers((result.keyframes, result.ideal, result.lasts))):
         return "returned a number that is not finite"
-    if not (made.keyframes or made.ideal or made.display or made.diagnostics or made.deferred):
+    if not (result.keyframes or result.ideal or result.display or result.diagnostics or result.deferred):
         return "returned no keyframe, and does not say why"
     return ""
 

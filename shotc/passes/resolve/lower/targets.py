@@ -74,20 +74,22 @@ def targets(
 
 
 def _with_building(
-    made: Targets, name: str, shapes: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
+    targets: Targets, name: str, shapes: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
 ) -> Targets:
     """Return targets with a building; one with several bodies is a group."""
     if shapes is None or isinstance(shapes, Diagnostic):
-        return made._replace(faults=made.faults if shapes is None else (*made.faults, shapes))
+        return targets._replace(faults=targets.faults if shapes is None else (*targets.faults, shapes))
     path = ("targets", name)
     if len(shapes) == 1:
         own = Target(name, shapes[0].centre, shapes[0].shape, path)
-        return made._replace(by_name={**made.by_name, name: own})
+        return targets._replace(by_name={**targets.by_name, name: own})
     boxes = [
         Target(own, body.centre, body.shape, path)
         for own, body in zip(_box_names(name, shapes, spec), shapes, strict=True)
     ]
-    return made._replace(by_name={**made.by_name, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
+    return targets._replace(
+        by_name={**targets.by_name, name: _group(name, boxes)}, boxes=(*targets.boxes, *boxes)
+    )
 
 
 def _box_names(name: str, shapes: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:

@@ -37,16 +37,16 @@ def from_cameras(
         yield held(flight.fleet.name, limit, worst, (flight.names[drone], camera.drone))
 
 
-def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
+def named_pictures(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield claims that the lights of every named picture lie within the body that cameras frame for it."""
-    for stand in shown:
+    for stand in frames:
         name = display.pictures[stand.picture].name if stand.picture < len(display.pictures) else None
         if name is None:
             continue
         target = flight.mission.target(name)
         lit = lit_drones(flight.track, np.array([stand.start]))[:, 0]
-        away = flight.at(stand.start)[lit] - np.array(target.centre)
-        out = max((target.shape.gap((float(x), float(y), float(z))) for x, y, z in away), default=0.0)
+        offsets = flight.at(stand.start)[lit] - np.array(target.centre)
+        out = max((target.shape.gap((float(x), float(y), float(z))) for x, y, z in offsets), default=0.0)
         path = (*display.pictures[stand.picture].path, "name")
         limit = Limit(f"lights outside {name}", 0.0, "m", path, shot=display.id)
         yield held(flight.fleet.name, limit, WorstValue(out, stand.start, "exact"))

@@ -38,13 +38,13 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
         once = Limit("times flown", 1.0, "", display.path, upper=len(flown) > 0, shot=display.id)
         yield held(flight.fleet.name, once, WorstValue(float(len(flown)), None, "exact"))
         if len(flown) == 1:
-            shown = [s for s in flight.track.shown if s.display == display.id]
+            frames = [s for s in flight.track.shown if s.display == display.id]
             yield from _timing(flight, display, flown[0], ends)
-            yield from _pictures(flight, display, flown[0], shown)
-            yield from _transitions(flight, display, shown)
-            yield from _waves(flight, display, shown)
-            yield from _holds(flight, display, shown)
-            yield from named_pictures(flight, display, shown)
+            yield from _pictures(flight, display, flown[0], frames)
+            yield from _transitions(flight, display, frames)
+            yield from _waves(flight, display, frames)
+            yield from _holds(flight, display, frames)
+            yield from named_pictures(flight, display, frames)
 
 
 def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
@@ -69,21 +69,21 @@ def _early(after: str | None, ends: dict[str, float], start: float) -> float | N
 
 
 def _pictures(
-    flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[FrameTimes]
+    flight: FleetFlight, display: Display, phase: Phase, frames: Sequence[FrameTimes]
 ) -> Iterator[Claim]:
     """Yield claims that every picture is shown, in order, within the display, for its hold."""
     name, pictures = flight.fleet.name, range(len(display.pictures))
-    order = [(s.picture, s.index) for s in shown]
+    order = [(s.picture, s.index) for s in frames]
     missing = len(set(pictures) - {picture for picture, _ in order})
     astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in pictures for p, _ in order)
-    times = [phase.start, *(t for s in shown for t in (s.start, s.end)), phase.end]
+    times = [phase.start, *(t for s in frames for t in (s.start, s.end)), phase.end]
     astray += sum(b < a - LIMIT_TOLERANCE for a, b in pairwise(times))
     limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
     yield held(name, limit, WorstValue(float(missing), None, "exact"))
     limit = Limit("pictures out of order", 0.0, "", (*display.path, "frames"), shot=display.id)
     yield held(name, limit, WorstValue(float(astray), None, "exact"))
-    yield from _moments(flight, display, shown)
-    last = {s.picture: s for s in shown}
+    yield from _moments(flight, display, frames)
+    last = {s.picture: s for s in frames}
     short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in pictures]
     lack, at = max(short, key=lambda entry: entry[0], default=(-inf, None))
     if at is not None:
@@ -92,9 +92,9 @@ def _pictures(
         yield held(name, limit, WorstValue(max(lack, 0.0), at.start, "exact"))
 
 
-def _moments(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
+def _moments(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that pictures stand at their given times."""
-    first = {s.picture: s for s in reversed(shown)}
+    first = {s.picture: s for s in reversed(frames)}
     timed = [(k, p) for k, p in enumerate(display.pictures) if p.at is not None and k in first]
     off = [(abs(first[k].start - (p.at or 0.0)), first[k].start, p.path) for k, p in timed]
     if off:
@@ -103,10 +103,10 @@ def _moments(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes])
         yield held(flight.fleet.name, limit, WorstValue(error, time, "exact"))
 
 
-def _transitions(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
+def _transitions(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that transitions between pictures take their given time."""
     transitions: list[tuple[float, float, KeyPath]] = []
-    for one, other in pairwise(shown):
+    for one, other in pairwise(frames):
         if one.picture != other.picture and other.picture in range(len(display.pictures)):
             picture = display.pictures[other.picture]
             if picture.transition is not None:
@@ -118,7 +118,7 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[FrameTim
         yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
 
 
-def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
+def _waves(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that the drones depart within the time of a wave, to two pieces of their splines.
 
     For a move of millimetres rounding hides the departure, and a drone that stays never departs. So there is
@@ -126,7 +126,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
     """
     breaks, coef = flight.track.breaks, flight.track.coef
     claims: list[tuple[float, Limit, WorstValue]] = []
-    first = {s.picture: s for s in reversed(shown)}
+    first = {s.picture: s for s in reversed(frames)}
     for k, picture in enumerate(display.pictures):
         if picture.wave is None or k not in first:
             continue
@@ -153,9 +153,9 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
         yield held(flight.fleet.name, limit, worst)
 
 
-def _holds(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
+def _holds(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that no drone moves while a picture is held."""
-    parts = [flight.flown.between([(s.start, s.end)]) for s in shown]
+    parts = [flight.flown.between([(s.start, s.end)]) for s in frames]
     parts = [part for part in parts if len(part.low)]
     if not parts:
         return
@@ -165,7 +165,7 @@ def _holds(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
         np.concatenate([p.ctrl - p.ctrl[:, :1, :1] for p in parts], axis=1),
     )
     drift = sup_convex(from_place.bag(), norm, gap(ON_PLACE))
-    begin = max((s.start for s in shown if s.start <= drift.at), default=0.0)
+    begin = max((s.start for s in frames if s.start <= drift.at), default=0.0)
     place = flight.at(begin)
     limit = Limit("drift at rest", ON_PLACE, "m", (*display.path, "frames"), shot=display.id)
     yield bounded(flight, limit, drift, lambda p: norm(p - place))

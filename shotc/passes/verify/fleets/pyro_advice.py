@@ -35,17 +35,17 @@ def pyro_advice(ir: TrajectoryIR, claim: Claim) -> str:
     firing = _Firing.of(ir, claim)
     moment = next(firing.moments(), None)
     drones = next(firing.drones(), None)
-    ways = []
+    remedies = []
     if moment is not None:
-        ways.append(f"write `at: {moment:g} s`")
+        remedies.append(f"write `at: {moment:g} s`")
     if drones is not None:
-        ways.append(f"fire it from `drones: [{', '.join(map(str, drones))}]`")
+        remedies.append(f"fire it from `drones: [{', '.join(map(str, drones))}]`")
     clear = firing.clear()
     if clear > 0.0:
-        ways.append(f"write `clear: {clear:g} m` if the product and your permit allow that")
+        remedies.append(f"write `clear: {clear:g} m` if the product and your permit allow that")
     if moment is None and drones is None:
-        ways.insert(0, firing.within() if claim.unit == "s" else OTHERWISE)
-    return ", or ".join(ways)
+        remedies.insert(0, firing.within() if claim.unit == "s" else OTHERWISE)
+    return ", or ".join(remedies)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -70,11 +70,11 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
     """Yield claims on the pads and rest at both ends, and on endurance."""
     breaks, coef = flight.track.breaks, flight.track.coef
     ends = np.array([breaks[0], breaks[-1]])
-    away = norm(
+    off_home = norm(
         np.stack([flight.at(float(t)) for t in ends], axis=1) - np.stack([flight.pads, flight.ends], 1)
     )
     home = Limit("distance from home", AT_HOME_M, "m", flight.key("layout"))
-    yield _farthest(flight, home, away, ends)
+    yield _farthest(flight, home, off_home, ends)
     still = np.stack([np.abs(flight.at(float(t), n)).max(axis=1) for n in (1, 2) for t in ends], axis=1)
     rest = Limit("rate at start and end", AT_REST, "m/s", flight.fleet.path)
     yield _farthest(flight, rest, still, np.tile(ends, 2))
@@ -87,8 +87,8 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
 def landed(flight: FleetFlight) -> Claim:
     """Return the claim that a flight ends on the pads."""
     end = np.array([float(flight.track.breaks[-1])])
-    away = norm(flight.at(float(end[0])) - flight.ends)[:, None]
-    return _farthest(flight, Limit("distance from home", AT_HOME_M, "m", flight.key("layout")), away, end)
+    off_home = norm(flight.at(float(end[0])) - flight.ends)[:, None]
+    return _farthest(flight, Limit("distance from home", AT_HOME_M, "m", flight.key("layout")), off_home, end)
 
 
 def _farthest(flight: FleetFlight, limit: Limit, values: Array, times: Array) -> Claim:

@@ -160,8 +160,8 @@ def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
         positions = places(target.track, np.concatenate([[low], inside, [high]]))
         least, most = positions.min(axis=0) - half, positions.max(axis=0) + half
         hulls = flown.ctrl[:, k]
-        away = np.maximum(np.maximum(hulls.min(axis=1) - most, least - hulls.max(axis=1)), 0.0)
-        best = np.minimum(best, norm(away))
+        gaps = np.maximum(np.maximum(hulls.min(axis=1) - most, least - hulls.max(axis=1)), 0.0)
+        best = np.minimum(best, norm(gaps))
     return best
 
 

@@ -66,11 +66,11 @@ def boards(plan: VerifiedIR) -> tuple[Board, ...]:
     boards = []
     for display in plan.trajectory.keyframes.mission.displays:
         flight = flight_of(plan, display.fleet)
-        shown = [s for s in flight.shown if s.display == display.id]
-        if shown:
+        frames = [s for s in flight.shown if s.display == display.id]
+        if frames:
             of, every = fleet_name(flight.fleet), plan.trajectory.fleets
             beside = tuple(f for f in every if f is not flight and fleet_name(f.fleet) == of)
-            boards.append(Board(display, flight, _moments(display, flight, shown), len(shown), beside))
+            boards.append(Board(display, flight, _moments(display, flight, frames), len(frames), beside))
     return tuple(boards)
 
 

@@ -110,7 +110,7 @@ def _standing(mission: MissionIR, eye: Array) -> Iterator[Faces]:
         yield Faces(faces.triangles, WALL_SHARE * faces.colors)
 
 
-def _hazy(raster: DepthRaster, away: Array) -> Array:
+def _hazy(raster: DepthRaster, depth: Array) -> Array:
     """Return the colours of a picture, hazier with the distance (rows, columns), metres."""
-    clear = np.exp(-np.where(np.isfinite(away), away, 0.0) / HAZE_M)[..., None]
+    clear = np.exp(-np.where(np.isfinite(depth), depth, 0.0) / HAZE_M)[..., None]
     return np.asarray(raster.colors * clear + np.array(HORIZON) * (1.0 - clear))

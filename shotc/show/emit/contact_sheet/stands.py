@@ -57,8 +57,8 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
     corners = BODY_IN * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     shapes = []
     for k in range(len(times)):
-        shown = at[lit[:, k], k] if lit[:, k].any() else at[:, k]
-        spread = (shown[:, None] + corners).reshape(-1, 2)
+        lit_places = at[lit[:, k], k] if lit[:, k].any() else at[:, k]
+        spread = (lit_places[:, None] + corners).reshape(-1, 2)
         shapes.append(np.array(convex_hull(tuple((float(x), float(y)) for x, y in spread))))
     return shapes
 

@@ -57,11 +57,11 @@ def show_of(plan: VerifiedIR) -> ShowFile:
     flights = plan.trajectory.fleets
     flown = [curves(flight) for flight in flights]
     control = np.concatenate([curve.control.reshape(-1, 3) for curve in flown])
-    kept = [zone for zone in mission.zones if zone.keep == "in"]
-    left = tuple(zone for zone in kept if not in_footprint(zone.solid, control[:, :2]).all())
-    made = {f.fleet: list(_drones(mission, f, curve)) for f, curve in zip(flights, flown, strict=True)}
-    drones = [drone for _, drone in by_number(mission, made)]
-    fences = [np.pad(ground_plan(zone.solid), ((0, 0), (0, 1))) for zone in kept if zone not in left]
+    keep_in = [zone for zone in mission.zones if zone.keep == "in"]
+    left = tuple(zone for zone in keep_in if not in_footprint(zone.solid, control[:, :2]).all())
+    by_fleet = {f.fleet: list(_drones(mission, f, curve)) for f, curve in zip(flights, flown, strict=True)}
+    drones = [drone for _, drone in by_number(mission, by_fleet)]
+    fences = [np.pad(ground_plan(zone.solid), ((0, 0), (0, 1))) for zone in keep_in if zone not in left]
     content: Json = {
         "version": 1,
         "meta": {
@@ -188,9 +188,9 @@ def _cues(plan: VerifiedIR) -> list[Json]:
     mission = plan.trajectory.keyframes.mission
     cues = []
     for flight in plan.trajectory.fleets:
-        for shown in pictures_shown(flight):
-            name = picture_name(mission.display(shown.display).pictures[shown.picture])
-            cues.append({"name": f"{shown.display}: {name}", "time": round(shown.start, 3)})
+        for frame in pictures_shown(flight):
+            name = picture_name(mission.display(frame.display).pictures[frame.picture])
+            cues.append({"name": f"{frame.display}: {name}", "time": round(frame.start, 3)})
     return sorted(cues, key=lambda cue: cue["time"])
 
 

@@ -64,11 +64,11 @@ def _over_pads(fleet: Fleet, mesh: ObstacleMesh) -> _Over:
     low, high = pads.copy(), pads.copy()
     low[:, 2] += foot
     high[:, 2] += rise
-    away = np.full(len(pads), body)
+    distance = np.full(len(pads), body)
     pairs = within(mesh.surface, low, high, body)
     triangles = mesh.surface.triangles[pairs.triangle]
-    np.minimum.at(away, pairs.item, segment_distances(triangles, low[pairs.item], high[pairs.item]))
-    lack = body - away
+    np.minimum.at(distance, pairs.item, segment_distances(triangles, low[pairs.item], high[pairs.item]))
+    lack = body - distance
     inside = mesh.holds(pads)
     if inside.any():
         lack[inside] = body - mesh.signed_distance(pads[inside])

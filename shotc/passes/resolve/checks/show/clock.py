@@ -176,20 +176,20 @@ def _in_order(displays: Sequence[Display]) -> list[Display]:
     """Return the displays in an order of their dependencies; those in a cycle are left out."""
     before = _before(displays)
     known = {d.id for d in displays}
-    done: dict[str, Display] = {}
+    ordered: dict[str, Display] = {}
     waiting = list(displays)
     while waiting:
-        ready = [d for d in waiting if _ready(d, before[d.id], known, done)]
+        ready = [d for d in waiting if _ready(d, before[d.id], known, ordered)]
         if not ready:
             break
-        done |= {d.id: d for d in ready}
-        waiting = [d for d in waiting if d.id not in done]
-    return list(done.values())
+        ordered |= {d.id: d for d in ready}
+        waiting = [d for d in waiting if d.id not in ordered]
+    return list(ordered.values())
 
 
-def _ready(display: Display, before: Display | None, known: set[str], done: dict[str, Display]) -> bool:
+def _ready(display: Display, before: Display | None, known: set[str], ordered: dict[str, Display]) -> bool:
     after = display.timing.after
-    return (before is None or before.id in done) and (after not in known or after in done)
+    return (before is None or before.id in ordered) and (after not in known or after in ordered)
 
 
 def _never(mission: MissionIR, display: Display) -> Diagnostic:
