@@ -15,7 +15,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
 from shotc.importers.cameras.takes import ImportOptions
-from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES, suffix_of
+from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES, suffix_of
 from shotc.importers.formats import FORMATS, SHOWS, WHAT
 from shotc.importers.names import safe
 from shotc.importers.xml_tree import LARGEST_BYTES

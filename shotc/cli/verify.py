@@ -15,7 +15,7 @@ from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.plans import bytes_of, prove
 from shotc.diag.render.json import render
-from shotc.importers.flights.names import SUFFIXES, is_flight, largest
+from shotc.importers.flights.endings import SUFFIXES, is_flight, largest
 from shotc.units import QuantityError, parse_quantity
 
 if TYPE_CHECKING:  # the base install has no numpy

@@ -7,7 +7,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.ground import Ground
-from shotc.geom.surface.sight import lines_hidden
+from shotc.geom.surface.occlusion import lines_hidden
 
 LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])
 """Direction to the light of a hillshade in W: from the north-west at 45 degrees, as on maps."""

@@ -21,7 +21,7 @@ from shotc.geom.solid_arrays.points import signed_distance, support
 from shotc.geom.solid_arrays.segments import blocks, within
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.surface.boards import Billboards, billboards, cells_of
-from shotc.geom.surface.sight import stopped
+from shotc.geom.surface.occlusion import stopped
 from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.surface.triangles import cross
 from shotc.geom.vec import Vec3

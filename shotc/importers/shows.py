@@ -20,7 +20,7 @@ from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import skyc
-from shotc.importers.flights.names import SHOW, TABLES, suffix_of
+from shotc.importers.flights.endings import SHOW, TABLES, suffix_of
 from shotc.importers.flights.points import Waypoints
 from shotc.importers.flights.read import Found, Read, read
 from shotc.importers.mission import Imported

@@ -31,7 +31,7 @@ from shotc.geom.pieces import Mask
 from shotc.geom.shapes import bodies_of
 from shotc.geom.solids import Solid
 from shotc.geom.surface.boards import Billboards
-from shotc.geom.surface.sight import in_the_way
+from shotc.geom.surface.occlusion import in_the_way
 from shotc.geom.surface.tree import Pairs, Surface
 from shotc.ir.bodies import beside_body, flying, from_body, parts_of_one
 from shotc.ir.hiding_surfaces import NamedParts, surfaces_before

@@ -21,7 +21,7 @@ from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
 from shotc.geom.surface.boards import cells_of, upright
 from shotc.geom.surface.cloud import splats
-from shotc.geom.surface.sight import hidden
+from shotc.geom.surface.occlusion import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from shotc.geom.surface.triangles import without_size
 from shotc.ir.limits import Vec3

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.framing import hidden
 from shotc.geom.outline import entering
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.sight import lines_hidden
+from shotc.geom.surface.occlusion import lines_hidden
 from shotc.ir.bodies import beside_body, flying, moved, parts_of_one
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import MissionIR

@@ -17,7 +17,7 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
-from shotc.show.emit.skyc.lights import TOLERANCE_LEVELS, programs
+from shotc.show.emit.skyc.light_programs import TOLERANCE_LEVELS, programs
 from tests.support import skyc_reader
 from tests.support.compiled import compiled
 

@@ -13,7 +13,7 @@ from shotc.emit.hillshade import before
 from shotc.emit.rerun_log import EMITTER
 from shotc.emit.rerun_log.opening import filmed_span, first_stand
 from shotc.geom.bernstein import Array
-from shotc.geom.surface.sight import lines_hidden
+from shotc.geom.surface.occlusion import lines_hidden
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR

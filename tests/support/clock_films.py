@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.boards import upright
 from shotc.geom.surface.near import nearest
-from shotc.geom.surface.sight import hidden
+from shotc.geom.surface.occlusion import hidden
 from shotc.geom.surface.tree import surface_of
 from tests.support.scenes import house, turned
 from tests.support.village_films import ply

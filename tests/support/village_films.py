@@ -11,7 +11,7 @@ import trimesh
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.boards import upright
 from shotc.geom.surface.near import nearest
-from shotc.geom.surface.sight import hidden
+from shotc.geom.surface.occlusion import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.scenes import some_scene
 

@@ -39,9 +39,9 @@ from shotc.emit.mavlink.thin import StraightLeg, Tolerance, thinner_of
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
-from shotc.emit.waypoints.flown import ReflownSamples
 from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes
+from shotc.emit.waypoints.reflown import ReflownSamples
 from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import SAMPLE_STEP_S, SampledFlight, track_of

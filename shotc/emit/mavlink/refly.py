@@ -21,8 +21,8 @@ from shotc.emit.mavlink.dialect import DIALECTS
 from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
-from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.geo import Geo, GeoPosition
+from shotc.emit.waypoints.reflown import STAY_PACE_M_S, ReflownSamples
 from shotc.geom.camera import yaw_of
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone

@@ -19,7 +19,7 @@ from shotc import __version__
 from shotc.emit.attitude import upright
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.cameras import without_fleets
-from shotc.emit.previs.scene import (
+from shotc.emit.previs.film_set import (
     FAR_M,
     NEAR_M,
     CameraSamples,

@@ -18,7 +18,7 @@ import numpy as np
 from shotc.emit.attitude import graphics
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.cameras import without_fleets
-from shotc.emit.previs.scene import (
+from shotc.emit.previs.film_set import (
     FAR_M,
     NEAR_M,
     BodyMotion,

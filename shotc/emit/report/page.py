@@ -12,7 +12,7 @@ import numpy as np
 from shotc import __version__
 from shotc.emit.report.nearness import SAMPLED_TIMES, Nearness, nearness
 from shotc.emit.report.pictures import nearness_plot, site_map
-from shotc.emit.report.style import STYLE
+from shotc.emit.report.style_sheet import STYLE
 from shotc.emit.site.volumes import OFF_ACROSS_M, OFF_UPRIGHT_M, REACTION_S, Volumes, volumes
 from shotc.emit.waypoints.link import link_notes, return_height
 from shotc.geom.earth import of_world

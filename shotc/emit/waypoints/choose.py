@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
-from shotc.emit.waypoints.flown import STAY_PACE_M_S
 from shotc.emit.waypoints.lens import (
     SAME_LENS_HALF_FRAMES,
     edge,
@@ -26,6 +25,7 @@ from shotc.emit.waypoints.lens import (
     zoomed,
 )
 from shotc.emit.waypoints.models import TURNINGS, CurveModel, Legs, legs_of, times_of, turned
+from shotc.emit.waypoints.reflown import STAY_PACE_M_S
 from shotc.emit.waypoints.route import PointAction, Route
 from shotc.emit.waypoints.stations import SHORTEST_LEG_M, Station, StationInterval, stations_of
 from shotc.emit.waypoints.track import (

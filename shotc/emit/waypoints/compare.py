@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
-from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.lens import edge
+from shotc.emit.waypoints.reflown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.track import BEHIND_CAMERA_HALF_FRAMES, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.bodies import moved

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints import paths
-from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.lens import shown_by
+from shotc.emit.waypoints.reflown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.route import Route
 from shotc.ir.drone import LensRange
 

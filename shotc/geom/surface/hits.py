@@ -13,7 +13,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.surface.boards import Billboards, cells
-from shotc.geom.surface.sight import PAIRS_AT_ONCE, candidates
+from shotc.geom.surface.occlusion import PAIRS_AT_ONCE, candidates
 from shotc.geom.surface.tree import Surface
 from shotc.geom.surface.triangles import cross, dot, without_size
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import items, litchi, skyc, wpml, zipped
-from shotc.importers.flights.names import SHOW, TABLE, TABLES, largest, suffix_of
+from shotc.importers.flights.endings import SHOW, TABLE, TABLES, largest, suffix_of
 from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
 from shotc.importers.flights.rows import DroneRows, rows
 from shotc.importers.xml_tree import Node, shown

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from shotc.geom.geodetic import to_world
 from shotc.importers.archive import Archive
 from shotc.importers.cameras.places import LARGEST_COORDINATE_M, is_place
+from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.light_program import KeyedLight, keyed
-from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain

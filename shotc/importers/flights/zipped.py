@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from shotc.importers.archive import members
 from shotc.importers.cameras.places import number
 from shotc.importers.cameras.takes import Refused
-from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES
+from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, Unread, refuse
 from shotc.importers.flights.rows import MOST_ROWS, PLACE, DroneRows, check_order, numbers_of
 from shotc.importers.notes import plain

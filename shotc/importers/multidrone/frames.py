@@ -8,8 +8,8 @@ from statistics import median
 from typing import NamedTuple
 
 from shotc.geom.geodetic import to_world
-from shotc.importers.multidrone.kml import drawn
 from shotc.importers.multidrone.read import MissionPoint, Sequence, ShootingAction
+from shotc.importers.multidrone.trajectory_map import drawn
 from shotc.importers.notes import Notes
 from shotc.rounding import plain
 

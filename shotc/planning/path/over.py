@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
-from shotc.planning.profile import Section, cut, fewer, taut
+from shotc.planning.vertical_section import Section, cut, fewer, taut
 
 STEP_M = 1.0  # metres between samples of the ground below a path
 STRIP_M = 3.0  # metres on either side of a path in which the ground counts

@@ -24,7 +24,7 @@ from shotc.show.assignment.director import Director
 from shotc.show.assignment.flashes import flashing
 from shotc.show.assignment.images import images_of
 from shotc.show.assignment.order import cast_of
-from shotc.show.assignment.song import song_faults
+from shotc.show.assignment.song_length import song_faults
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.ir.show import Picture
+from shotc.show.geom.depth_layers import Layers, layers_of, widest_layers
 from shotc.show.geom.fit import MOST_DARK_SHARE
 from shotc.show.geom.lattice import Mould
-from shotc.show.geom.layers import Layers, layers_of, widest_layers
 from shotc.show.geom.push_apart import grain
 from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import skyc, zipped
+from shotc.importers.flights.endings import TABLES, suffix_of
 from shotc.importers.flights.light_program import KeyedLight
-from shotc.importers.flights.names import TABLES, suffix_of
 from shotc.importers.flights.points import Unread
 from shotc.importers.flights.rows import DroneRows
 from shotc.ir.fleet import Colors

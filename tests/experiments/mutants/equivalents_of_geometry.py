@@ -85,13 +85,13 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         "an upright line outside the circle leaves at 0 by the next line, and is outside wherever it enters",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "far = dot(normal, corners[:, 0])",
         "0  ->  1",
         "every corner of a triangle is in its plane",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         'nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)',
         "*  ->  /",
         "a sign is its own inverse",
@@ -127,13 +127,13 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         "a wider tolerance leaves more boxes to look at; the distances of their triangles decide",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "ends = RAY_SHARE * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])",
         "1  ->  2",
         "cells are n x n; and numpy takes any negative size for the one that is left",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "return np.asarray(hidden(surface, billboards(eyes, points, 0.0, 0.0), 1)[:, 0, 0])",
         "0.0  ->  1.0",
         "the middle of a rectangle of any size is the point",
@@ -164,13 +164,13 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         3,
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "if disc > 0.0 and without_size(corners).all():",
         "0.0  ->  1.0",
         "points have no plane: the test by planes, which this condition saves, keeps them all as well",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])",
         "0  ->  1",
         "the product of any two sides is the same normal",
@@ -257,7 +257,7 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         "any triangle gives an upper bound; what is nearer is searched for after it",
     ),
     Equivalent(
-        "shotc/geom/surface/sight.py",
+        "shotc/geom/surface/occlusion.py",
         "return bool((wide.sum(axis=0) <= ALIKE_RATIO * np.abs(on).sum(axis=0)).all())",
         "all  ->  any",
         "a search for several frames is followed by the test of each: the triangles are those of a search each",

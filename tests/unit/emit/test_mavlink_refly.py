@@ -11,8 +11,8 @@ from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.refly import refly
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.emit.waypoints.compare import Error, compare
-from shotc.emit.waypoints.flown import ReflownSamples
 from shotc.emit.waypoints.geo import Geo
+from shotc.emit.waypoints.reflown import ReflownSamples
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import orbit_plan
 from tests.support.mavlink_flights import flight, plan, retold, straight

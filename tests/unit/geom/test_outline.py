@@ -21,7 +21,7 @@ from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part, TargetS
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks
 from shotc.geom.solids import Cylinder, Prism, Solid, box
-from shotc.geom.surface.sight import candidates, in_the_way, stopped
+from shotc.geom.surface.occlusion import candidates, in_the_way, stopped
 from shotc.geom.surface.tree import Surface, surface_of
 from shotc.geom.vec import Vec3
 

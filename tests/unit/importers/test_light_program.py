@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from shotc.importers.flights.light_program import KeyedLight, keyed
 from shotc.importers.flights.points import Unread
-from shotc.show.emit.skyc.lights import program
+from shotc.show.emit.skyc.light_programs import program
 
 
 def color_at(light: KeyedLight, time: float) -> tuple[float, ...]:

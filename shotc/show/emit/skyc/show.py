@@ -23,7 +23,7 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.numbered import by_number
 from shotc.show.emit.skyc.curve import COORDINATE_DECIMALS, Curves, curves
 from shotc.show.emit.skyc.fireworks import programs_of
-from shotc.show.emit.skyc.lights import programs
+from shotc.show.emit.skyc.light_programs import programs
 
 Json = dict[str, Any]
 

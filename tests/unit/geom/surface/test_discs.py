@@ -8,7 +8,7 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.boards import Billboards, billboards, cells_of, upright
 from shotc.geom.surface.cloud import cloud_of
-from shotc.geom.surface.sight import hidden, in_the_way, lines_hidden, stopped
+from shotc.geom.surface.occlusion import hidden, in_the_way, lines_hidden, stopped
 from shotc.geom.surface.tree import Surface
 from tests.support.records import replace
 

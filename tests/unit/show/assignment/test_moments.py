@@ -18,7 +18,7 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.kinds.files import FileFault
 from shotc.passes.resolve.lower.music import read_beats
 from shotc.passes.verify import judge
-from shotc.show.assignment.song import seconds, song_faults
+from shotc.show.assignment.song_length import seconds, song_faults
 from shotc.show.emit.skyc import EMITTER
 from tests.support import skyc_reader
 from tests.support.records import replace

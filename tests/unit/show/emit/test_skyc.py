@@ -18,7 +18,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc import EMITTER
-from shotc.show.emit.skyc.lights import program
+from shotc.show.emit.skyc.light_programs import program
 from tests.support import show_flights, skyc_reader
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace

@@ -7,7 +7,7 @@ import pytest
 
 from shotc.ir.light_colors import light_colors
 from shotc.ir.light_layers import Axis, Band, Glints, Gradient, Layer
-from shotc.show.emit.skyc.lights import TOLERANCE_LEVELS, programs
+from shotc.show.emit.skyc.light_programs import TOLERANCE_LEVELS, programs
 from tests.support.lit_shows import layer, line, lit
 from tests.support.skyc_reader import color_at
 

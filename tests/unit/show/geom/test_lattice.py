@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.show.geom import lattice as module
+from shotc.show.geom.depth_layers import layered, layers_of
 from shotc.show.geom.lattice import Mould, laid, lattice, widest
-from shotc.show.geom.layers import layered, layers_of
 
 DENSITY = {(2, False): 2 / sqrt(3), (2, True): 1.0, (3, False): sqrt(2), (3, True): 2 / sqrt(3)}
 

@@ -7,7 +7,7 @@ from math import acos, atan2, ceil, cos, degrees, hypot, radians, sin
 from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.checks.grammar.sight import ShotFrame
+from shotc.passes.resolve.checks.grammar.end_frames import ShotFrame
 
 _KEYS = ("azimuth", "start_azimuth")
 

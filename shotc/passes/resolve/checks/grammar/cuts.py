@@ -14,9 +14,9 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.flown_order import flown_order
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.aside import to_the_side
+from shotc.passes.resolve.checks.grammar.end_frames import ShotFrame, sight
 from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.line import check_line
-from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 from shotc.rounding import at_least, at_most
 
 VIEWS_APART_RAD = radians(30.0)  # least angle between two views of one subject: the 30-degree rule

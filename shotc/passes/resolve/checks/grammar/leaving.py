@@ -9,8 +9,8 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.checks.grammar.end_frames import start_of
 from shotc.passes.resolve.checks.grammar.labels import framing
-from shotc.passes.resolve.checks.grammar.sight import start_of
 from shotc.planning.framing.candidates import FixedCamera
 
 EMPTY_S = 0.5  # seconds that a shot may be without its subject

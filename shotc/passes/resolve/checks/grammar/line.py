@@ -12,8 +12,8 @@ from math import hypot, radians, sin
 from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.mission import MissionIR, Shot
+from shotc.passes.resolve.checks.grammar.end_frames import ShotFrame, sight
 from shotc.passes.resolve.checks.grammar.labels import placing
-from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 
 NEUTRAL = sin(radians(15.0))  # sine of the angle from the line within which a camera is on no side
 SHOT_SAMPLES = 24  # samples of a shot for a visible crossing

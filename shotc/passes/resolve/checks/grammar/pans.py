@@ -10,8 +10,8 @@ from shotc.geom.pan import WINDOW_S, slowest, whose
 from shotc.geom.vec import TURN_RAD, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
+from shotc.passes.resolve.checks.grammar.end_frames import sight, start_of
 from shotc.passes.resolve.checks.grammar.labels import lasting
-from shotc.passes.resolve.checks.grammar.sight import sight, start_of
 from shotc.passes.resolve.checks.timing import ROUNDING_S
 from shotc.planning.framing.placing import explicit_aim
 from shotc.planning.framing.whole_turns import ROUNDING

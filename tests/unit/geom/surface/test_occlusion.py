@@ -8,9 +8,9 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.geom.surface import sight
+from shotc.geom.surface import occlusion
 from shotc.geom.surface.boards import Billboards, billboards, cells_of, upright
-from shotc.geom.surface.sight import hidden
+from shotc.geom.surface.occlusion import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
 
@@ -140,8 +140,8 @@ def test_shares_of_sixty_four_rays_are_near_those_of_ten_thousand(monkeypatch: p
     exact = hidden(surface, boards, 100).mean(axis=(1, 2))
     assert 0.05 < exact.mean() < 0.95
     assert np.abs(share - exact).mean() < 0.01
-    monkeypatch.setattr(sight, "FRAMES_AT_ONCE", 7)
-    monkeypatch.setattr(sight, "PAIRS_AT_ONCE", 5)
+    monkeypatch.setattr(occlusion, "FRAMES_AT_ONCE", 7)
+    monkeypatch.setattr(occlusion, "PAIRS_AT_ONCE", 5)
     assert (hidden(surface, boards).mean(axis=(1, 2)) == share).all()
 
 
@@ -166,7 +166,7 @@ def test_a_slope_behind_the_ends_of_all_rays_is_left_out_whatever_its_size(
     """The plane z = y - c is as far behind the lowest middle of a cell, 0.75 m under the axis, as is told."""
     c = 20.0 + 0.75 + gap * np.sqrt(2.0)
     slope = [[-half_width, 19.9, 19.9 - c], [half_width, 19.9, 19.9 - c], [0.0, 21.0, 21.0 - c]]
-    found = sight.in_the_way(surface_of(np.array([slope])), north(20.0, 2.0), 4)
+    found = occlusion.in_the_way(surface_of(np.array([slope])), north(20.0, 2.0), 4)
     assert bool(len(found)) is met
 
 
@@ -178,10 +178,10 @@ def test_frames_that_share_a_search_have_the_triangles_of_a_search_each(
     surface = surface_of(some_triangles(np.random.default_rng(6), 90))
     eye = np.column_stack([np.linspace(30.0, 30.5, count), np.full(count, 1.0), np.full(count, 2.0)])
     boards = billboards(eye, np.tile([-9.0, 0.0, 0.0], (count, 1)), 4.0, 3.0)
-    monkeypatch.setattr(sight, "GROUPED_FRAMES", 4)
-    together = sight.candidates(surface, boards)
-    monkeypatch.setattr(sight, "GROUPED_FRAMES", count)
-    alone = sight.candidates(surface, boards)
+    monkeypatch.setattr(occlusion, "GROUPED_FRAMES", 4)
+    together = occlusion.candidates(surface, boards)
+    monkeypatch.setattr(occlusion, "GROUPED_FRAMES", count)
+    alone = occlusion.candidates(surface, boards)
     assert len(alone)
     found = [sorted(zip(p.item.tolist(), p.triangle.tolist(), strict=True)) for p in (together, alone)]
     assert found[0] == found[1]
@@ -192,7 +192,7 @@ def test_a_pyramid_goes_through_the_outermost_middles_of_cells(n: int):
     random = np.random.default_rng(4)
     boards = Billboards(*random.normal(size=(4, 3, 3)))
     middles = cells_of(boards, n).reshape(3, n * n, 3) - boards.eye[:, None]
-    found = sight._pyramids(boards, n)
+    found = occlusion._pyramids(boards, n)
     for frame in range(3):
         corners = middles[frame].reshape(n, n, 3)[[0, 0, -1, -1], [0, -1, 0, -1]]
         key = np.lexsort(corners.round(9).T), np.lexsort(found.ends[frame].round(9).T)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.planning.profile import Section, cut, fewer, taut
+from shotc.planning.vertical_section import Section, cut, fewer, taut
 
 
 def length(corners):
