@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import signal
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from importlib.util import find_spec
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -17,7 +20,6 @@ from shotc.plugins import not_installed
 from shotc.rounding import at_least
 from shotc.stream.beginning import clock_time, moment
 from shotc.stream.clock import WallClock
-from shotc.stream.endings import as_interrupts
 from shotc.stream.endpoint import Endpoint, endpoint
 from shotc.stream.punctual import punctual
 
@@ -53,6 +55,7 @@ At = Annotated[
     ),
 ]
 Arm = Annotated[bool, typer.Option("--arm", help="Arm the vehicles and fly. Without it nothing moves.")]
+_ENDINGS = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 def stream(
@@ -145,7 +148,7 @@ def _stream(
 def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport, at: float | None) -> int:
     from shotc.stream.report import timing_summary
 
-    with as_interrupts(), punctual() as granted:
+    with _as_interrupts(), punctual() as granted:
         flown, pilots = session.fly(aboard, at)
     console.out(_outcome(flown, pilots))
     console.out(f"{timing_summary(flown.times)}{'; at real-time priority' * granted}")
@@ -236,3 +239,18 @@ def _all_filmed(targets: Mapping[str, Endpoint], trajectory: TrajectoryIR) -> No
         known("--target", name, [target.name for target in mission.targets])
         if name not in filmed:
             raise typer.BadParameter(f"no shot films `{name}`", param_hint="--target")
+
+
+@contextmanager
+def _as_interrupts() -> Iterator[None]:
+    """Turn SIGTERM and SIGHUP into KeyboardInterrupt, as Ctrl-C does; in the main thread only."""
+    before = {ending: signal.signal(ending, _interrupt) for ending in _ENDINGS}
+    try:
+        yield
+    finally:
+        for ending, handler in before.items():
+            signal.signal(ending, handler)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

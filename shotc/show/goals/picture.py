@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,15 +11,18 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors, Frame
-from shotc.ir.show import Lettering, Picture
+from shotc.ir.show import Drawing, Lettering, Model, Picture, RecordedFlight
 from shotc.show.goals.body import PlacedShape, SourceFault
+from shotc.show.goals.drawing import drawing_body
 from shotc.show.goals.faults import in_the_way, of_source, too_dark, too_few, too_many
 from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.frames import model_bodies
 from shotc.show.goals.in_layers import layer_stats, seen_spacing
 from shotc.show.goals.layout import GoalLayout, PictureTask, growth, laid_out
+from shotc.show.goals.lettering import lettering_body
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
 from shotc.show.goals.remedies import PictureRemedies, remedies
-from shotc.show.goals.sources import bodies_of
+from shotc.show.goals.solids import solid_body
 from shotc.show.goals.spaced import SpacingTask
 
 WHITE = (255, 255, 255)
@@ -151,3 +154,22 @@ def _stats(
         (f"{name} moved by spacing, mean m", float(shifts.mean())),
         (f"{name} moved by spacing, largest m", float(shifts.max())),
     )
+
+
+def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[PlacedShape] | SourceFault:
+    """Return one body for each frame of a picture, or the reason why its source cannot be drawn.
+
+    files : content of the mission's files by name, including all that the source names
+    """
+    source = picture.source
+    if isinstance(source, Model):
+        assert picture.fill != "legible"  # only texts have it
+        return model_bodies(source, files, picture.fill)
+    if isinstance(source, Drawing):
+        body: PlacedShape | SourceFault = drawing_body(source, files[source.file])
+    elif isinstance(source, Lettering):
+        body = lettering_body(source, files)
+    else:
+        assert not isinstance(source, RecordedFlight)  # it has tracks, not a shape
+        body = solid_body(source)
+    return body if isinstance(body, SourceFault) else [body]

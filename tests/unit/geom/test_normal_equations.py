@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.geom.normal_equations import damped_step
+from shotc.geom.pose_search import damped_step
 
 
 @pytest.mark.parametrize("seed", range(6))

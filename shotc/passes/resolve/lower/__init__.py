@@ -9,11 +9,10 @@ from shotc.diag.registry import has_errors
 from shotc.ir.drone import Drone
 from shotc.ir.framed_course import StartedFraming
 from shotc.ir.ground import GroundHeight, flat
-from shotc.ir.mission import GeoOrigin, MissionIR, Zone
+from shotc.ir.mission import Deferred, GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
-from shotc.passes.resolve.lower.deferred import each_once
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import FileReader, Files, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
@@ -177,7 +176,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial,
         rate=spec.output.rate or (SHOW_RATE_HZ if shots.displays and not shots.shots else RATE_HZ),
         emit=emitters_of(spec),
         source_sha256=ir.sha256,
-        deferred=each_once(shots.deferred),
+        deferred=_each_once(shots.deferred),
         origins=ir.origins,
         fleets=show.fleets,
         displays=shots.displays,
@@ -220,3 +219,11 @@ def _transits(spec: RulesSpec) -> TransitClearance:
         filmed is not None,
         other is not None,
     )
+
+
+def _each_once(shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
+    """Return each feature once, at its first place; shots : what the kinds of shots found."""
+    first: dict[str, Deferred] = {}
+    for deferred in shots:
+        first.setdefault(deferred.feature, deferred)
+    return tuple(first.values())

@@ -24,9 +24,9 @@ from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
 from shotc.kinds.earth import FARTHEST_M
 from shotc.kinds.files import FileFault
+from shotc.kinds.models import cloud_file, mesh_file
 from shotc.kinds.models.endings import METRES
 from shotc.kinds.models.parts import ModelFault, NodePart, wrong_corners
-from shotc.kinds.models.reader import read_model
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import SCENE, Obstacles
 from shotc.requirements import remedy
@@ -76,7 +76,7 @@ def scene_mesh(
     where : how the file is read, and the position of its origin in W, metres
     """
     placed, at = where
-    parts = read_model(placed.kind, data)
+    parts = _read_model(placed.kind, data)
     fault = parts if isinstance(parts, ModelFault) else wrong_corners(parts, LARGEST_COORDINATE)
     if isinstance(fault, ModelFault):
         return Obstacles(faults=(_unusable(written, fault, files),))
@@ -288,3 +288,11 @@ def _length(metres: float) -> str:
     if metres >= 1000.0:
         return f"{metres / 1000:.3g} km"
     return f"{metres:.3g} m" if metres >= 1.0 else f"{100 * metres:.3g} cm"
+
+
+def _read_model(kind: str, data: bytes) -> list[NodePart] | ModelFault:
+    """Return the parts of a file, or its fault. The bytes may be anything.
+
+    kind : the ending of its name, one of ``endings.ENDINGS``
+    """
+    return cloud_file.read_cloud(kind, data) if kind in cloud_file.KINDS else mesh_file.read_mesh(kind, data)

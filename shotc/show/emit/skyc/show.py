@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, degrees
 from typing import Any
 
 import numpy as np
@@ -18,11 +18,11 @@ from shotc.geom.solid_arrays.points import in_footprint
 from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Zone
-from shotc.ir.show import drone_names
+from shotc.ir.show import Display, Fleet, PyroCue, drone_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.numbered import by_number
+from shotc.show.emit.pyro_cues import carried
 from shotc.show.emit.skyc.curve import COORDINATE_DECIMALS, Curves, curves
-from shotc.show.emit.skyc.fireworks import programs_of
 from shotc.show.emit.skyc.light_programs import programs
 
 Json = dict[str, Any]
@@ -92,7 +92,7 @@ def _turned(points: Array) -> list[list[float]]:
 
 def _drones(mission: MissionIR, flight: FleetTrajectory, fitted: Curves) -> Iterator[Json]:
     fleet = mission.fleet(flight.fleet)
-    fired = programs_of(mission.displays, fleet)
+    fired = _pyro_programs(mission.displays, fleet)
     takeoff = int(fitted.millis[0])
     times = ((fitted.millis - takeoff) / 1e3).tolist()
     third = (fitted.control[:, :, 3] - fitted.control[:, :, 0]) / 3.0
@@ -203,4 +203,27 @@ def _limits(mission: MissionIR, highest: float) -> Json:
         "maxVelocityZ": max(fleet.limits.descent for fleet in fleets),
         "maxVelocityZUp": max(fleet.limits.climb for fleet in fleets),
         "minDistance": min(min(f.apart.horizontal, f.apart.vertical) for f in fleets),
+    }
+
+
+def _pyro_programs(displays: Sequence[Display], fleet: Fleet) -> list[dict[str, Any] | None]:
+    """Return the pyro programme of every drone of a fleet; None for a drone without products."""
+    return [_pyro_program(cues) if cues else None for cues in carried(displays, fleet)]
+
+
+def _pyro_program(cues: Sequence[PyroCue]) -> dict[str, Any]:
+    """Return events [ignition in seconds, channel from 0, product] and the products, by channel from 1."""
+    return {
+        "version": 1,
+        "events": [[round(cue.ignition, 3), k, str(k + 1)] for k, cue in enumerate(cues)],
+        "payloads": {
+            str(k + 1): {
+                "name": cue.product,
+                "duration": round(cue.duration, 3),
+                "prefireTime": round(cue.prefire, 3),
+                "yaw": round(degrees(cue.pan), 3),
+                "pitch": round(degrees(cue.tilt), 3),
+            }
+            for k, cue in enumerate(cues)
+        },
     }

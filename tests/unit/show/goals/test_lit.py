@@ -18,7 +18,7 @@ from shotc.ir.passes import PassContext
 from shotc.ir.show import Apart, Drawing, Lettering, Source
 from shotc.show.goals import PlaceGoals
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.sources import bodies_of
+from shotc.show.goals.picture import bodies_of
 from tests.support.display_missions import display, fleet, picture, show
 
 pytestmark = pytest.mark.slow
