@@ -157,7 +157,7 @@ def _block(
     reference = references(track, shot, target, t)
     numbers = np.column_stack([frames.u, frames.v, reference, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
-    covered = _judged(plan, (track.drone, shot, target), t)
+    covered = _judged(plan, track.drone, shot, target, t)
     missing = np.isnan(covered)
     if missing.any():
         eyes = track.curve(t[missing])[:, :3]
@@ -188,14 +188,11 @@ def _sharp(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: A
     return [f",{_cells(row)}" for row in np.column_stack(columns).tolist()]
 
 
-def _judged(plan: VerifiedIR, of: tuple[str, str, str], t: Array) -> Array:
-    """Return the covered shares that verification found at times (M,); NaN where it has no sample.
-
-    of : drone, shot and target
-    """
+def _judged(plan: VerifiedIR, drone: str, shot: str, target: str, t: Array) -> Array:
+    """Return the covered shares that verification found at times (M,); NaN where it has no sample."""
     share = np.full(len(t), np.nan)
     for cover in plan.covered:
-        if (cover.drone, cover.shot, cover.target) == of:
+        if (cover.drone, cover.shot, cover.target) == (drone, shot, target):
             near = np.minimum(np.searchsorted(cover.times, t), len(cover.times) - 1)
             same = cover.times[near] == t
             share[same] = cover.share[near[same]]

@@ -88,6 +88,14 @@ class UntimedFlight:
         return next((leg for leg in self.legs if time < leg.end), self.legs[-1])
 
 
+class _PlacedPoint(NamedTuple):
+    """A point of a flight, the name of its file, and its place in W, metres."""
+
+    point: FlightPoint
+    file: str
+    at: Array
+
+
 class _UntimedLeg(NamedTuple):
     """A leg without a time.
 
@@ -113,22 +121,22 @@ def course_of(
     """
     assert mission.origin is not None
     geo = tie(mission.origin, drone.home)
-    placed: list[tuple[FlightPoint, str, Array]] = []
+    placed: list[_PlacedPoint] = []
     for point, file in zip(plan.points, files, strict=True):
         at = _place(mission, geo, point, drone)
         if isinstance(at, Refused):
             return file, at
-        placed.append((point, file, at))
+        placed.append(_PlacedPoint(point, file, at))
     landing = None if plan.landing is None else _place(mission, geo, plan.landing, drone)
     if isinstance(landing, Refused):
         return files[-1], landing
     distinct = [placed[0]]
     for point, file, at in placed[1:]:
-        if float(np.linalg.norm(at - distinct[-1][2])) < SAME_M:
-            stays = distinct.pop()[0].stay + point.stay
-            distinct.append((point._replace(stay=stays, stops=True), file, at))
+        if float(np.linalg.norm(at - distinct[-1].at)) < SAME_M:
+            stays = distinct.pop().point.stay + point.stay
+            distinct.append(_PlacedPoint(point._replace(stay=stays, stops=True), file, at))
         else:
-            distinct.append((point, file, at))
+            distinct.append(_PlacedPoint(point, file, at))
     points = np.array([at for _, _, at in distinct])
     models = _models([point for point, _, _ in distinct], points, plan)
     parts = [
@@ -228,7 +236,7 @@ def _approach(
 def _legs(
     drone: Drone,
     plan: Waypoints,
-    placed: Sequence[tuple[FlightPoint, str, Array]],
+    placed: Sequence[_PlacedPoint],
     models: Sequence[list[Array]],
 ) -> Iterator[_UntimedLeg]:
     """Yield the legs between points, and the stays at points."""

@@ -20,7 +20,7 @@ from shotc.geom.solids import distance, signed_distance
 from shotc.geom.vec import wrapped
 from shotc.ir.ahead import looks_along
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.preference import PICTURE_SHARE
@@ -221,17 +221,20 @@ def _looking(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Cla
     lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
     if flight.drone.zooms:
         lens = np.where([k.asks_for_lens(flight.drone.hfov) for k in keyframes], lens, 0.0)
-    yield _largest(flight, ("lens off its keyframes", LENS_RAD, "rad"), shot, (lens, t))
+    limit = Limit("lens off its keyframes", LENS_RAD, "rad", shot.path, shot=shot.id)
+    yield _largest(flight, limit, lens, t)
     unframed = np.array([k.reference is None for k in keyframes])
     yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])
     if flight.mission.rules.look_ahead is not None and looks_along(shot):
         yaw = _off_course(flight, (yaw, t), flight.mission.rules.look_ahead, (t[0], t[-1]))
     pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
     off_aim = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
-    yield _largest(flight, ("direction off its keyframes", TURNED_RAD, "rad"), shot, (off_aim, t))
+    limit = replace(limit, constraint="direction off its keyframes", value=TURNED_RAD)
+    yield _largest(flight, limit, off_aim, t)
     turns = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
     turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - turns)
-    yield _largest(flight, ("turn off its keyframes", AROUND_RAD, "rad"), shot, (np.nan_to_num(turned), t))
+    limit = replace(limit, constraint="turn off its keyframes", value=AROUND_RAD)
+    yield _largest(flight, limit, np.nan_to_num(turned), t)
 
 
 def _off_course(
@@ -254,11 +257,6 @@ def _off_course(
     return np.asarray(np.maximum(least - half_angle, 0.0))
 
 
-def _largest(
-    flight: JudgedFlight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]
-) -> Claim:
-    value, t = values
+def _largest(flight: JudgedFlight, limit: Limit, value: Array, t: Array) -> Claim:
     k = int(value.argmax())
-    name, limit, unit = what
-    bound = Limit(name, limit, unit, shot.path, shot=shot.id)
-    return claim(flight, bound, WorstValue(float(value[k]), float(t[k]), "exact"))
+    return claim(flight, limit, WorstValue(float(value[k]), float(t[k]), "exact"))

@@ -25,7 +25,15 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
 Mask = NDArray[np.bool_]
-Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
+
+
+class _KeyframedSpan(NamedTuple):
+    """An interval between two keyframes of one target, seconds, without the hold before it."""
+
+    start: float
+    end: float
+    before: PlacedKeyframe
+    after: PlacedKeyframe
 
 
 def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
@@ -110,16 +118,16 @@ def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, ti
     return inside if inside.any() else ~inside
 
 
-def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[Leg]:
-    """Yield the intervals between neighbouring keyframes of one target; each without the hold before it."""
+def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[_KeyframedSpan]:
+    """Yield the intervals between neighbouring keyframes of one target."""
     if len(placed.keyframes) == 1:
         only = placed.keyframes[0]
         if only.target is not None:
-            yield phase.start, phase.end, only, only
+            yield _KeyframedSpan(phase.start, phase.end, only, only)
         return
     for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
         if a.target is not None and a.target == b.target:
-            yield times[i] + a.hold, times[j], a, b
+            yield _KeyframedSpan(times[i] + a.hold, times[j], a, b)
 
 
 class _SampledLeg(NamedTuple):
@@ -130,7 +138,7 @@ class _SampledLeg(NamedTuple):
     after: PlacedKeyframe
 
 
-def _sampled(flight: JudgedFlight, legs: list[Leg]) -> Iterator[_SampledLeg]:
+def _sampled(flight: JudgedFlight, legs: list[_KeyframedSpan]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
         ticks = clock(flight.mission.rate, end)
         inside = ticks[(ticks > start) & (ticks < end)]
@@ -139,9 +147,7 @@ def _sampled(flight: JudgedFlight, legs: list[Leg]) -> Iterator[_SampledLeg]:
         )
 
 
-def _off(
-    flight: JudgedFlight, shot: str, leg: tuple[Array, PlacedKeyframe, PlacedKeyframe]
-) -> tuple[float, float]:
+def _off(flight: JudgedFlight, shot: str, leg: _SampledLeg) -> tuple[float, float]:
     t, a, b = leg
     first, second = np.array(a.reference), np.array(b.reference)
     reference = references(flight.track, shot, str(a.target), t)

@@ -82,7 +82,9 @@ def _keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterat
         rests = keyframe.hold > 0 and placed.shot.keyframes[index].beside is None
         if rests or len(placed.keyframes) == 1:
             end = phase.end if len(placed.keyframes) == 1 or time is None else time + keyframe.hold
-            yield _still(flight, keyframe, (time, end), (placed.shot, index, phase))
+            name = f"drift at keyframe {index + 1}"
+            drift = Limit(name, ON_PLACE, "m", keyframe.path, shot=placed.shot.id)
+            yield _still(flight, drift, (time, end), placed.shot, phase)
     for name, unit, limit, errors in (
         ("distance from keyframes", "m", ON_PLACE, met),
         ("delay of keyframes", "s", ON_TIME_S, late),
@@ -147,14 +149,9 @@ def _miss(
 
 
 def _still(
-    flight: JudgedFlight,
-    keyframe: PlacedKeyframe,
-    span: tuple[float | None, float],
-    where: tuple[Shot, int, Phase],
+    flight: JudgedFlight, limit: Limit, span: tuple[float | None, float], shot: Shot, phase: Phase
 ) -> Claim:
-    shot, index, phase = where
     start, end = span
-    limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
     if start is None or start < phase.start - ON_TIME_S or end > phase.end + ON_TIME_S:
         return claim(flight, limit, WorstValue(inf, start, "exact"))
     # A camera that follows a moving target turns while it rests.

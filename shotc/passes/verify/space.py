@@ -7,6 +7,7 @@ the body may be as near to a solid as it is on its pad, but no nearer.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -31,7 +32,8 @@ def space(flight: JudgedFlight) -> Iterator[Claim]:
     free, upright = _split(flight)
     for zone in flight.mission.zones:
         if zone.keep == "out":
-            yield from _keep_out(flight, f"zone {zone.name}", zone.solid, (free, upright, 0.0), zone.path)
+            limit = Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False)
+            yield from _keep_out(flight, limit, zone.solid, (free, upright))
         else:
             yield _keep_in(flight, zone, free, upright)
     rules = flight.mission.rules
@@ -39,9 +41,9 @@ def space(flight: JudgedFlight) -> Iterator[Claim]:
     yield from beside_meshes(flight, free, upright)
     for target in flight.mission.targets:
         near = (free, upright) if target.track is None else _split(flight, target)
-        parts = (*near, rules.target_clearance)
         path = ("rules", "target_clearance")
-        yield from _keep_out(flight, f"target {target.name}", target.kept_clear, parts, path)
+        limit = Limit(f"target {target.name}", rules.target_clearance, "m", path, upper=False)
+        yield from _keep_out(flight, limit, target.kept_clear, near)
     if len(upright):
         yield from _vertical(flight, upright)
 
@@ -59,22 +61,19 @@ def _split(flight: JudgedFlight, target: Target | None = None) -> tuple[Pieces, 
 
 
 def _keep_out(
-    flight: JudgedFlight,
-    name: str,
-    solid: Solid,
-    parts: tuple[Pieces, Pieces, float],
-    path: tuple[str | int, ...],
+    flight: JudgedFlight, limit: Limit, solid: Solid, parts: tuple[Pieces, Pieces]
 ) -> Iterator[Claim]:
-    free, upright, clearance = parts
+    """Yield claims on the distance from a solid; parts : as of ``_split``."""
+    free, upright = parts
     radius = flight.drone.radius
     if len(free):
-        bound = inf_distance(free, solid, gap(radius + clearance))
-        yield bounded(flight, Limit(name, clearance, "m", path, upper=False), less(bound, radius))
+        bound = inf_distance(free, solid, gap(radius + limit.value))
+        yield bounded(flight, limit, less(bound, radius))
     if len(upright):
         near = min(radius, distance(solid, flight.drone.home))
         bound = inf_distance(upright, solid, gap(near))
-        limit = Limit(f"{name} at home", near - radius, "m", path, upper=False)
-        yield bounded(flight, limit, less(bound, radius))
+        at_home = replace(limit, constraint=f"{limit.constraint} at home", value=near - radius)
+        yield bounded(flight, at_home, less(bound, radius))
 
 
 def _keep_in(flight: JudgedFlight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:

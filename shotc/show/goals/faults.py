@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -173,12 +174,22 @@ def in_the_way(
         )
         message = f"the picture is too low: {_of(count, fleet)}"
         diagnostics.append(Diagnostic("D058", message, (label,), (note,), help_))
-    about = (mission, fleet, label, help_, len(frames))
+    about = _Obstructed(mission, fleet, label, help_, len(frames))
     for obstacle in surroundings.obstacles:
         diagnostics += _at_obstacle(obstacle, goals, about)
     for surface in surroundings.surfaces:
         diagnostics += _at_surface(surface, goals, about)
     return diagnostics
+
+
+class _Obstructed(NamedTuple):
+    """A picture with something in its way: the label and the help of its faults, and its number of frames."""
+
+    mission: MissionIR
+    fleet: Fleet
+    label: Label
+    help: str
+    frames: int
 
 
 def _whole(goals: Array) -> Array:
@@ -189,9 +200,7 @@ def _whole(goals: Array) -> Array:
     return np.concatenate([goals, *rays, *(0.5 * (row[1:] + row[:-1]) for row in rows)])
 
 
-def _at_obstacle(
-    obstacle: Clearance, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
-) -> list[Diagnostic]:
+def _at_obstacle(obstacle: Clearance, goals: Array, about: _Obstructed) -> list[Diagnostic]:
     mission, fleet, label, help_, frames = about
     lack = lack_of(obstacle, goals)
     if not (lack > ROUNDING_M).any():
@@ -205,9 +214,7 @@ def _at_obstacle(
     return [Diagnostic("D058", message, labels, (note + obstacle.measure(place, fleet.radius),), help_)]
 
 
-def _at_surface(
-    surface: Standing, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
-) -> list[Diagnostic]:
+def _at_surface(surface: Standing, goals: Array, about: _Obstructed) -> list[Diagnostic]:
     mission, fleet, label, help_, frames = about
     lack = surface.lack(goals)
     if not (lack > ROUNDING_M).any():

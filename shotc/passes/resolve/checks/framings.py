@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import asin, degrees, dist, hypot, isnan
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
@@ -239,18 +240,32 @@ def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyP
     return subject.path
 
 
+class _SeenAt(NamedTuple):
+    """How a subject appears at a mission time, and how it is required to."""
+
+    t: float
+    appearance: SubjectAppearance
+    required: RequiredView
+
+    @property
+    def size_ratio(self) -> float:
+        """Its size over the required one, which is given."""
+        assert self.required.size is not None
+        return self.appearance.size / self.required.size
+
+
 def _together(mission: MissionIR, course: StartedFraming, advise: bool) -> Iterator[Diagnostic]:
     """Yield what several subjects cannot have at once."""
     shot, lens = course.shot, lens_of(mission.drone(course.shot.drone))
     notes: list[str] = []
     labels: list[Label] = []
     for subject in shot.subjects:
-        seen = []
+        seen: list[_SeenAt] = []
         for t, pose in zip(course.times, course.poses, strict=True):
             required = required_view_at(mission, subject, course.times[0], t)
             appearance = judged(pose, lens, required)
             if appearance is not None:
-                seen.append((t, appearance, required))
+                seen.append(_SeenAt(t, appearance, required))
         apart = _apart(mission, course, subject, seen, advise) if _known(mission, shot) else None
         if apart is not None:
             yield _with_reasons(mission, course, apart, advise)
@@ -317,7 +332,7 @@ def _apart(
     mission: MissionIR,
     course: StartedFraming,
     subject: Subject,
-    seen: Sequence[tuple[float, SubjectAppearance, RequiredView]],
+    seen: Sequence[_SeenAt],
     advise: bool,
 ) -> Diagnostic | None:
     """Return the fault of a subject that is out of the picture, or much too small because of others,
@@ -334,7 +349,7 @@ def _apart(
             ("from where they appear as asked, it is behind the camera",),
             "film it in another shot",
         )
-    t, worst, _ = max(seen, key=lambda entry: entry[1].out)
+    t, worst, _ = max(seen, key=lambda entry: entry.appearance.out)
     if worst.out > OUT_HALF_FRAMES:
         return Diagnostic(
             "M033",
@@ -343,10 +358,10 @@ def _apart(
             (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
             "film it in another shot, or take a wider lens",
         )
-    sized = [(entry[1].size / entry[2].size, *entry) for entry in seen if entry[2].size is not None]
+    sized = [(entry.size_ratio, entry) for entry in seen if entry.required.size is not None]
     if not sized:
         return None
-    share, t, small, needed = min(sized, key=lambda entry: entry[0])
+    share, (t, small, needed) = min(sized, key=lambda pair: pair[0])
     if share * SIZES_APART_RATIO >= 1.0 or needed.size is None:
         return None
     smaller = for_sizes(_fits, mission, course.asked, subject.target, small.size) if advise else ()
@@ -365,21 +380,21 @@ def _with_reasons(mission: MissionIR, course: StartedFraming, fault: Diagnostic,
     return fault._replace(notes=(*fault.notes, *why_not_direct(mission, course)), help=", or ".join(ways_out))
 
 
-def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, RequiredView]]) -> list[str]:
+def _compromise(subject: Subject, seen: Sequence[_SeenAt]) -> list[str]:
     """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
-    t, worst, required = max(seen, key=lambda entry: entry[1].screen)
+    t, worst, required = max(seen, key=lambda entry: entry.appearance.screen)
     if worst.screen > OFF_PLACE_HALF_FRAMES and required.uv is not None:
         place = f"({required.uv[0]:.2f}, {required.uv[1]:.2f})"
         notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
-    sized = [(abs(entry[1].size / entry[2].size - 1.0), *entry) for entry in seen if entry[2].size]
+    sized = [(abs(entry.size_ratio - 1.0), entry) for entry in seen if entry.required.size]
     if sized:
-        off, t, worst, required = max(sized, key=lambda entry: entry[0])
+        off, (t, worst, required) = max(sized, key=lambda pair: pair[0])
         if off > OFF_SIZE_SHARE and required.size:
             notes.append(
                 f"{_share(worst.size)} of the frame high instead of {_share(required.size)} at t = {t:.1f} s"
             )
-    t, worst, _ = max(seen, key=lambda entry: entry[1].angle)
+    t, worst, _ = max(seen, key=lambda entry: entry.appearance.angle)
     if worst.angle > OFF_VIEW_RAD:
         notes.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
     return notes
