@@ -111,22 +111,24 @@ class SentPlans:
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the setpoints, (R, 3) each."""
         rows = [self._row(plan, time) for plan in self.plans]
-        position, velocity, acceleration = (np.array(part) for part in zip(*rows, strict=True))
-        return VehicleSetpoint(position, velocity, acceleration)
+        return VehicleSetpoint(
+            np.array([row.position for row in rows]),
+            np.array([row.velocity for row in rows]),
+            np.array([row.acceleration for row in rows]),
+        )
 
     def places(self, run: int, times: Array) -> Array:
         """Return the positions of a run at times (M,), shape (M, 3), metres."""
-        return np.array([self._row(self.plans[run], time)[0] for time in times.tolist()])
+        return np.array([self._row(self.plans[run], time).position for time in times.tolist()])
 
-    def _row(self, plan: Plan, time: float) -> tuple[Array, Array, Array]:
+    def _row(self, plan: Plan, time: float) -> VehicleSetpoint:
         k = int(np.searchsorted(plan.times, time, side="right")) - 1
         p, v = plan.places[k], plan.velocities[k]
         left = time - float(plan.times[k])
         if k == len(plan.accelerations):
-            stopping = braked(p, v, self.acceleration, left)
-            return stopping.position, stopping.velocity, stopping.acceleration
+            return braked(p, v, self.acceleration, left)
         a = plan.accelerations[k]
-        return p + left * v + 0.5 * left * left * a, v + left * a, a
+        return VehicleSetpoint(p + left * v + 0.5 * left * left * a, v + left * a, a)
 
 
 @dataclass(slots=True)
