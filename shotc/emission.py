@@ -66,7 +66,7 @@ class EmitterPool:
         for i, plan in enumerate(self._plans):
             if share := heavy[i :: len(self._plans)]:
                 with suppress(BrokenExecutor):
-                    self._work.append(_Work(share, plan, self._pool.submit(_made, i, share)))
+                    self._work.append(_Work(share, plan, self._pool.submit(_emissions, i, share)))
 
     def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
         """Run emitters and return their outcomes in order."""
@@ -129,7 +129,7 @@ def _begin(load: Load, orders: Sequence[Connection], plans: Sequence[Connection]
     _HERE[:] = load, orders
 
 
-def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:
+def _emissions(i: int, names: Sequence[str]) -> dict[str, Emission]:
     """Prepare emitters, wait for a plan in pipe ``i``, and return their emissions without the failed ones."""
     load, orders = _HERE
     emitters = [emitter for name in names if (emitter := load(name)) is not None]

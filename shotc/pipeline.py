@@ -111,10 +111,10 @@ def passes_of(steps: Sequence[RouteStep], setting: PassSettings) -> tuple[AnyPas
     for last, step in pairwise(steps):
         if last.gives != step.takes:
             raise ValueError(f"{last.name} gives {last.gives}, {step.name} takes {step.takes}")
-    return tuple(_made(step, setting) for step in steps)
+    return tuple(_pass_of(step, setting) for step in steps)
 
 
-def _made(step: RouteStep, setting: PassSettings) -> AnyPass:
+def _pass_of(step: RouteStep, setting: PassSettings) -> AnyPass:
     module, _, name = step.home.partition(":")
     single_pass: AnyPass = getattr(import_module(module), name)(*(getattr(setting, o) for o in step.options))
     return single_pass

@@ -44,7 +44,7 @@ def nearer_than(value: float, limit: float) -> str:
     return at_least(value, digits)
 
 
-def away(value: float, *, upper: bool, digits: int) -> float:
+def rounded_outward(value: float, *, upper: bool, digits: int) -> float:
     """Return a value rounded to so many significant digits, up for an upper limit, else down."""
     if value == 0:
         return 0.0

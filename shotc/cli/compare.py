@@ -96,7 +96,7 @@ def compare(
         report = compare_source(
             source.data, source.name, source.folder, Options(refiner_names, smoothings, deadline, progress)
         )
-        comparison = _shown(report)
+        comparison = _comparison_with_plans(report)
         from shotc.comparison.outputs import artifacts
 
         emission = artifacts(comparison, progress)
@@ -134,7 +134,7 @@ def _smoothing(name: str) -> float:
     return seconds
 
 
-def _shown(report: Report) -> Comparison:
+def _comparison_with_plans(report: Report) -> Comparison:
     """Return the comparison if it has a plan to show; otherwise report why not, and exit."""
     comparison = report.comparison
     if comparison is not None and any(each.plan is not None for each in comparison.conditions):

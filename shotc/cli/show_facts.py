@@ -103,7 +103,7 @@ def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     """Return a heading and one row per display: fleet, start, duration, pictures. Empty without displays."""
     rows = [
-        (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_shown(track, phase))
+        (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_display_row(track, phase))
         for track in plan.trajectory.fleets
         for phase in track.phases
         if phase.shot is not None
@@ -111,7 +111,7 @@ def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     return [("display", "fleet", "from", "lasts", "pictures"), *rows] if rows else []
 
 
-def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
+def _display_row(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
     frames_of = [s for s in track.shown if s.display == phase.shot]
     pictures = len({s.picture for s in frames_of})
     frames = "" if len(frames_of) == pictures else f", {len(frames_of)} frames"

@@ -25,7 +25,7 @@ from shotc.passes.verify.energy import ENERGY, J_PER_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.planning.path.unwrapping import TURNS
-from shotc.rounding import as_minutes, at_least, at_most, away, plain
+from shotc.rounding import as_minutes, at_least, at_most, plain, rounded_outward
 
 WIDTH_CHARACTERS = 100
 GLUE = "\N{NO-BREAK SPACE}"
@@ -201,7 +201,7 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
 
 def _used_up(value: float) -> str:
     """Return the used part of a limit with three digits, rounded up."""
-    return f"{away(value, upper=True, digits=3):.3g}" if value > NO_MOTION_SHARE else "0"
+    return f"{rounded_outward(value, upper=True, digits=3):.3g}" if value > NO_MOTION_SHARE else "0"
 
 
 def _closest(claims: Sequence[Claim]) -> list[str]:

@@ -67,7 +67,7 @@ def aligned(
     for phase in phases:
         placed = next((p for p in keyframes.shots if p.shot.id == phase.shot), None)
         if placed is not None and looks:
-            times = _met(placed, curve, phase)
+            times = _keyframe_times(placed, curve, phase)
             at += times
             framing += _framed(mission, placed, phase, (bare, times))
     track = DroneTrajectory(drone.name, curve, phases, tuple(at), tuple(framing))
@@ -173,7 +173,7 @@ def _by_mission(
     return tuple(phase for phase in every if phase.end > phase.start)
 
 
-def _met(placed: PlacedShot, curve: Piecewise, phase: Phase) -> list[KeyframeTime]:
+def _keyframe_times(placed: PlacedShot, curve: Piecewise, phase: Phase) -> list[KeyframeTime]:
     """Return the times at which the camera passes the keyframes of a shot.
 
     The times are in order and minimise the sum of squared distances to the keyframes (dynamic programming

@@ -123,7 +123,7 @@ def named(
             faults.append(
                 _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED_DRONES])._replace(labels=(label,))
             )
-        elif (astray := _away(flight, pads[flight.name])) is not None:
+        elif (astray := _far_from_pad(flight, pads[flight.name])) is not None:
             faults.append(astray)
         elif flight.name in by_name or flight.name in others:
             text = f"`{flight.name}` has two flights"
@@ -135,7 +135,7 @@ def named(
     return by_name, tuple(faults[:MOST_NAMED_DRONES])
 
 
-def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
+def _far_from_pad(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
     """Report a flight that is far from its pad."""
     distances = np.linalg.norm(flight.curve.ctrl - np.array(pad), axis=2)
     piece = int(np.argmax(distances.max(axis=1)))

@@ -321,13 +321,15 @@ def _separation(swarm: Swarm) -> Iterator[FileClaim]:
     """
     fleet = swarm.fleet
     if not take_off_of(fleet).layered:
-        yield from _kept(swarm, "separation", fleet.apart)
+        yield from _separation_claim(swarm, "separation", fleet.apart)
         return
-    yield from _kept(swarm, "separation in the air", fleet.apart, _aloft(swarm))
-    yield from _kept(swarm, "separation on pads", bodies_of(fleet))
+    yield from _separation_claim(swarm, "separation in the air", fleet.apart, _aloft(swarm))
+    yield from _separation_claim(swarm, "separation on pads", bodies_of(fleet))
 
 
-def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> Iterator[FileClaim]:
+def _separation_claim(
+    swarm: Swarm, name: str, apart: Apart, spans: Array | None = None
+) -> Iterator[FileClaim]:
     fleet = swarm.fleet
     closest = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
     if not isfinite(closest.proven):

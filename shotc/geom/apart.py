@@ -59,6 +59,6 @@ def straight_spacing(apart: Distances) -> float:
     return sqrt(2.0) * ball(apart)
 
 
-def kept(proven: float, across: float) -> bool:
+def keeps_separation(proven: float, across: float) -> bool:
     """Return whether a proved distance keeps the required one, metres, within SLACK_SHARE."""
     return proven >= across - SLACK_SHARE * max(1.0, across)

@@ -22,20 +22,20 @@ def outside(cameras: Cameras, places: Array, radius: float) -> Array:
     places : of its centre, (M, 3), metres. The result is in metres, negative if the ball reaches into the
     picture. It is a lower bound on the distance from the picture; beyond a corner of the frame it is smaller.
     """
-    camera, offset = cameras.view, _away(cameras, places)
+    camera, offset = cameras.view, _offsets(cameras, places)
     edges = frustum_margins(camera, offset)
     return np.asarray(-np.min([*edges, camera.to_camera(offset)[2]], axis=0) - radius)
 
 
 def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:
     """Return the angle between the optical axis and the nearest point of each ball, rad, shape (M,)."""
-    right, down, forward = cameras.view.to_camera(_away(cameras, places))
+    right, down, forward = cameras.view.to_camera(_offsets(cameras, places))
     radial = np.hypot(right, down)
     far = np.hypot(radial, forward)
     half = np.arcsin(radius / np.maximum(far, radius)) if radius > 0 else np.zeros_like(far)
     return np.where(far > radius, np.arctan2(radial, forward) - half, WITHIN_RAD)
 
 
-def _away(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:
+def _offsets(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:
     x, y, z = (places - cameras.position).T
     return x, y, z

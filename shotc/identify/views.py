@@ -84,7 +84,7 @@ def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | t
     """
     across, up = int(tiles[0]), int(tiles[1])
     boards = _boards(camera, box, (across, up))
-    rays = _laid(_ways(boards), (across, up))
+    rays = _laid(_tile_rays(boards), (across, up))
     eye = np.array(camera.eye)
     first = _nearest(mission, boards, (across, up), rays)
     with np.errstate(invalid="ignore"):
@@ -123,7 +123,7 @@ def _boards(camera: CameraPose, box: ScreenBox, tiles: tuple[int, int]) -> Billb
     return Billboards(np.tile(eye, (count, 1)), corner, np.tile(side, (count, 1)), np.tile(rise, (count, 1)))
 
 
-def _ways(boards: Billboards) -> Array:
+def _tile_rays(boards: Billboards) -> Array:
     """Return the vector to the middle of each cell of tiles, shape (F, TILE_RAYS, TILE_RAYS, 3)."""
     middle = (np.arange(TILE_RAYS) + 0.5) / TILE_RAYS
     a, b = np.meshgrid(middle, middle, indexing="ij")

@@ -15,7 +15,7 @@ from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, assumption_diagnostics, label
-from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, shown
+from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, readable_text
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
@@ -89,16 +89,18 @@ def _footage(
 ) -> tuple[str, ImportedTakes | Refused]:
     """Return the text of a file of cameras, for messages, and its content."""
     if format == "qgc":
-        return shown(data), qgc.footage(data, name, options, notes)
+        return readable_text(data), qgc.footage(data, name, options, notes)
     if format in ("blender-camera", "litchi"):
         read = blender.footage if format == "blender-camera" else litchi.footage
-        return shown(data), read(shown(data), options, notes)
+        return readable_text(data), read(readable_text(data), options, notes)
     plain = kml.unpacked(data)
     root = plain if isinstance(plain, XmlFault) else parse_xml(plain)
     if isinstance(root, XmlFault):
         node = Node("", root.line, root.column, wide=1)
-        return "" if isinstance(plain, XmlFault) else shown(plain), Refused("I001", root.message, node)
-    return "" if isinstance(plain, XmlFault) else shown(plain), kml.footage(root, options, notes)
+        return "" if isinstance(plain, XmlFault) else readable_text(plain), Refused(
+            "I001", root.message, node
+        )
+    return "" if isinstance(plain, XmlFault) else readable_text(plain), kml.footage(root, options, notes)
 
 
 def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
@@ -108,7 +110,7 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     name   : name of the file for messages
     strict : report an error instead of making an assumption
     """
-    source = SourceFile(name, shown(data))
+    source = SourceFile(name, readable_text(data))
     sources = {name: source}
     root = parse_xml(data)
     if isinstance(root, XmlFault):

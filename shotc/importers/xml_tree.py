@@ -57,7 +57,7 @@ class XmlFault(NamedTuple):
     column: int = 1
 
 
-def shown(data: bytes) -> str:
+def readable_text(data: bytes) -> str:
     """Return the text of any file, to show its lines in messages."""
     wide = data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
     return data.decode("utf-16" if wide else "utf-8-sig", "replace")

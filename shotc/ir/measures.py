@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, isfinite
 
 from shotc.ir.trajectory import Claim
-from shotc.rounding import away
+from shotc.rounding import rounded_outward
 
 USUAL_DIGITS = 4
 """Default number of digits."""
@@ -39,7 +39,9 @@ def distinct_measures(first: float, second: float, unit: str) -> tuple[str, str]
 def enough(claim: Claim) -> str:
     """Return a limit that the claim's worst value keeps, as text: the value rounded away to four digits."""
     number, unit = _as_read(claim.worst, claim.unit)
-    return f"{away(number, upper=claim.upper, digits=USUAL_DIGITS):.{USUAL_DIGITS}g} {unit}".strip()
+    return (
+        f"{rounded_outward(number, upper=claim.upper, digits=USUAL_DIGITS):.{USUAL_DIGITS}g} {unit}".strip()
+    )
 
 
 def _as_read(value: float, unit: str) -> tuple[float, str]:

@@ -39,7 +39,7 @@ def hiders(
         if other.name not in one:
             before = hidden(beside_body(other, eyes, t), beside_body(other, centres, t), (other.solid,))
             yield f"target {other.name}", before & ~parts_of_one(filmed, other, t)
-    met = _met(filmed, eyes, centres, t) if mission.meshes else centres
+    met = _entry_points(filmed, eyes, centres, t) if mission.meshes else centres
     for name, surface in surfaces_before(mission, target):
         yield name, lines_hidden(surface, eyes, met)
     for flight in others:
@@ -52,7 +52,7 @@ def others_of(flights: Sequence[DroneTrajectory], drone: str) -> tuple[DroneTraj
     return tuple(flight for flight in flights if flight.drone != drone)
 
 
-def _met(filmed: Target, eyes: Array, centres: Array, t: Array) -> Array:
+def _entry_points(filmed: Target, eyes: Array, centres: Array, t: Array) -> Array:
     """Return where lines of sight enter a target, (M, 3); so a filmed building does not hide itself."""
     start, end = beside_body(filmed, eyes, t), beside_body(filmed, centres, t)
     share = np.minimum(entering(filmed.shape, filmed.centre, start, end - start), 1.0)

@@ -61,7 +61,9 @@ def sharpness(mission: MissionIR, track: DroneTrajectory, shot: str, target: str
         open_, shut = (np.clip(t + by, track.curve.start, track.curve.end) for by in (-half, half))
         motion = _drawn(drone, *(_seen(mission, track, target, end) for end in (open_, shut)))
         behind = _behind(mission, track, target, t)
-        background = _drawn(drone, *(_shown(cameras(mission, track, end), behind) for end in (open_, shut)))
+        background = _drawn(
+            drone, *(_on_screen(cameras(mission, track, end), behind) for end in (open_, shut))
+        )
     return Sharpness(focus, near, far, disc, motion, background)
 
 
@@ -118,7 +120,7 @@ def _behind(mission: MissionIR, track: DroneTrajectory, target: str, t: Array) -
     return np.asarray(eye + np.clip(share, 1.0, most)[:, None] * ray)
 
 
-def _shown(eyes: Cameras, points: Array) -> Array:
+def _on_screen(eyes: Cameras, points: Array) -> Array:
     """Return the places of points (M, 3) on screen, half frames, (M, 2); NaN behind the camera."""
     camera: View = eyes.view
     with np.errstate(divide="ignore", invalid="ignore"):

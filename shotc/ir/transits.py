@@ -64,7 +64,7 @@ def from_zones(mission: MissionIR) -> SolidClearance | None:
     return SolidClearance(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
 
 
-def ways(phases: Sequence[Phase]) -> tuple[TransitInterval, ...]:
+def transit_intervals(phases: Sequence[Phase]) -> tuple[TransitInterval, ...]:
     """Return the ways of a flight, without take-off and landing."""
     transits, runs = list[TransitInterval](), list[tuple[bool, list[Phase]]]()
     for unfilmed, group in groupby(phases, lambda p: p.shot is None and p.name not in UPRIGHT):

@@ -22,7 +22,7 @@ def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
     """Return the fault of a place, degrees, that is too far from the origin; else None."""
     if abs(lat - origin.lat_deg) < NEAR_DEG and abs(lon - origin.lon_deg) < NEAR_DEG:
         return None
-    distance = _away((origin.lat_deg, origin.lon_deg), (lat, lon))
+    distance = _ground_distance((origin.lat_deg, origin.lon_deg), (lat, lon))
     if distance <= FARTHEST_M:
         return None
     return Stray(
@@ -36,16 +36,18 @@ def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
 def _remedy(origin: tuple[float, float], place: tuple[float, float]) -> str:
     lat, lon = place
     meant = {"swapped": (lon, lat), "longitude": (lat, -lon), "latitude": (-lat, lon)}
-    near = [slip for slip, p in meant.items() if abs(p[0]) <= 90 and _away(origin, p) <= FARTHEST_M]
+    near = [
+        slip for slip, p in meant.items() if abs(p[0]) <= 90 and _ground_distance(origin, p) <= FARTHEST_M
+    ]
     if "swapped" in near:
         return f"latitude and longitude look swapped; write `lat: {lon:g}, lon: {lat:g}`"
     if near:
         right = f"`lat: {meant[near[0]][0]:g}, lon: {meant[near[0]][1]:g}`"
         return f"the {near[0]} looks as if it had the wrong sign (west and south are negative); write {right}"
-    if abs(origin[1]) <= 90 and _away((origin[1], origin[0]), place) <= FARTHEST_M:
+    if abs(origin[1]) <= 90 and _ground_distance((origin[1], origin[0]), place) <= FARTHEST_M:
         return "latitude and longitude of `world.origin` look swapped"
     return "correct the place, or move `world.origin` to where the mission is flown"
 
 
-def _away(origin: tuple[float, float], place: tuple[float, float]) -> float:
+def _ground_distance(origin: tuple[float, float], place: tuple[float, float]) -> float:
     return hypot(*to_world((*place, 0.0), (*origin, 0.0)))

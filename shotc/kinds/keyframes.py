@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.drone import LensRange
 from shotc.ir.mission import Deferred
 from shotc.kinds.base import Expansion, Kind, Part, Scene, Stand
-from shotc.rounding import away
+from shotc.rounding import rounded_outward
 from shotc.spec.shot import KeyframeSpec, ShotBase
 
 
@@ -67,7 +67,7 @@ def _beyond_lens(scene: Scene, lens: LensRange, hfov: float, *path: str | int) -
         f"the zoom of `{name}` goes from {longest:.4g} to {widest:.4g} deg, not to {degrees(hfov):.4g} deg"
     )
     nearest = lens.longest if hfov < lens.longest else lens.widest
-    inside = away(degrees(nearest), upper=hfov < lens.longest, digits=2)
+    inside = rounded_outward(degrees(nearest), upper=hfov < lens.longest, digits=2)
     return scene.fault(
         "K018", message, f"write `hfov: {inside:g} deg`, and go nearer or farther", *path, "hfov"
     )

@@ -36,7 +36,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
     followed = shot.look_at if isinstance(shot.look_at, str) else shot.target
     target = None if followed is None else scene.targets.get(followed)
     if followed is not None and target is not None and target.track is not None:
-        aim = _kept(shot, scene)
+        aim = _constant_aim(shot, scene)
         if isinstance(aim, Diagnostic):
             return Expansion.of([aim])
         subject = scene.framed(shot, followed)
@@ -58,7 +58,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
     return Expansion.of([keyframe])
 
 
-def _kept(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
+def _constant_aim(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
     """Return the constant (yaw, pitch) of a camera whose target moves through the picture, or None."""
     if shot.heading is not None and shot.pitch is not None:
         return (yaw_of(shot.heading), shot.pitch)

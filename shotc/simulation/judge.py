@@ -164,7 +164,7 @@ def judged(
         for r, each in enumerate(between(mission, one, other, ticks)):
             near[i][r] = (*near[i][r], each)
     filmed = [tuple(_filmed(mission, track)) for track in ir.drones]
-    astray = [_away(f, t) for f, t in zip(flown, ir.drones, strict=True)]
+    astray = [_strays(f, t) for f, t in zip(flown, ir.drones, strict=True)]
     led = [misled(world, t, f, a) for f, t, a in zip(flown, ir.drones, astray, strict=True)]
     blind = [unplaced(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
     behind = [lags(world, t, f) for f, t in zip(flown, ir.drones, strict=True)]
@@ -277,7 +277,7 @@ def _in_sight(
     return float(np.mean(share <= HALF_SHARE))
 
 
-def _away(flown: DroneRuns, track: DroneTrajectory) -> Array:
+def _strays(flown: DroneRuns, track: DroneTrajectory) -> Array:
     """Return the stray of a drone at its instants in each run, (F, R), metres."""
     plan = track.curve(flown.times)[:, None, :3]
     return np.asarray(np.linalg.norm(flown.position - plan, axis=2))

@@ -66,7 +66,7 @@ def stepped(modes: Modes, time: float, models: tuple[MotionModel, ...]) -> Modes
     return Modes(tuple(mixed), share)
 
 
-def taken(modes: Modes, measurement: Measurement) -> Modes:
+def updated_modes(modes: Modes, measurement: Measurement) -> Modes:
     """Return the estimates updated with a measurement of the same time."""
     updates = [measurement.taken(estimate) for estimate in modes.estimates]
     if len(updates) == 1:

@@ -121,10 +121,10 @@ def _help(rehearsed: Rehearsed, each: RequirementVerdict) -> str:
     better = ""
     if each.key in ("in_frame", "mean_error") and rehearsed.conditions.loop == "replay":
         better = "let the camera follow what it sees with `loop: track`, or "
-    return f"{better}ask for what {share}: `{each.key}: {_kept(each)}`"
+    return f"{better}ask for what {share}: `{each.key}: {_proposed_bound(each)}`"
 
 
-def _kept(each: RequirementVerdict) -> str:
+def _proposed_bound(each: RequirementVerdict) -> str:
     if each.unit == "share":
         return f"{max(0.0, down(100 * each.kept, 1)):g} %"
     return f"{up(each.kept, 3):g}" if each.upper else f"{max(0.0, down(each.kept)):g}"

@@ -206,7 +206,7 @@ def _remarks(rehearsed: Rehearsed) -> Iterator[str]:
     for i in range(len(rehearsed.runs[0].fleets)):
         yield from _margin(rehearsed, [run.fleets[i] for run in rehearsed.runs])
     for i in range(len(rehearsed.runs[0].fleet_pairs)):
-        yield _met(rehearsed, [run.fleet_pairs[i] for run in rehearsed.runs])
+        yield _nearest_remark(rehearsed, [run.fleet_pairs[i] for run in rehearsed.runs])
 
 
 def _spoiled(rehearsed: Rehearsed) -> Iterator[str]:
@@ -283,7 +283,7 @@ def _margin(rehearsed: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
     yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
 
 
-def _met(rehearsed: Rehearsed, every: list[FleetPair]) -> str:
+def _nearest_remark(rehearsed: Rehearsed, every: list[FleetPair]) -> str:
     """Return the remark on the nearest drones of two fleets, or of a fleet and a camera."""
     worst = min(every, key=lambda each: each.near.distance)
     near, names = worst.near, {fleet.name: drone_names(fleet) for fleet in rehearsed.mission.fleets}

@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.kalman import Estimate, Measurement, MotionModel
-from shotc.simulation.modes import Modes, begun, expected, stepped, taken
+from shotc.simulation.modes import Modes, begun, expected, stepped, updated_modes
 
 FIRST_VARIANCE = 0.5
 """Variance of each component of the first state, m^2 and m^2/s^2."""
@@ -53,7 +53,7 @@ class Tracker:
         del self._past[k:]
         for each in again:
             at = stepped(self._past[-1][0], each.time, self.models)
-            self._past.append((taken(at, each), each))
+            self._past.append((updated_modes(at, each), each))
         self._forget()
         return True
 

@@ -36,7 +36,7 @@ def read(
     start = now = clock.now()
     met: dict[str, float] = {}
     beat = requested = start - 60.0
-    while not all(_done(vehicle, met.get(vehicle.drone), start, now) for vehicle in vehicles):
+    while not all(_is_read(vehicle, met.get(vehicle.drone), start, now) for vehicle in vehicles):
         if now - beat >= BEAT_S:
             beat = now
             for vehicle in vehicles:
@@ -88,7 +88,7 @@ def _ask(vehicle: VehicleStatus) -> None:
             vehicle.link.ask_parameter(name)
 
 
-def _done(vehicle: VehicleStatus, met: float | None, start: float, now: float) -> bool:
+def _is_read(vehicle: VehicleStatus, met: float | None, start: float, now: float) -> bool:
     if met is None or vehicle.heartbeat is None:
         return now - start >= HEARTBEAT_S
     if vehicle.heartbeat.autopilot != vehicle.autopilot.number:

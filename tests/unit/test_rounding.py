@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.rounding import EXACT_SHARE, at_least, at_most, away, down, plain, up
+from shotc.rounding import EXACT_SHARE, at_least, at_most, down, plain, rounded_outward, up
 
 values = st.floats(-1e5, 1e5)
 digits = st.integers(0, 4)
@@ -48,15 +48,18 @@ def test_what_means_three_is_three_and_what_is_more_is_more():
 
 @given(value=st.floats(1e-6, 1e6), upper=st.booleans(), digits=st.integers(2, 6))
 def test_significant_digits_are_rounded_away_from_a_value(value, upper, digits):
-    told = away(value, upper=upper, digits=digits)
+    told = rounded_outward(value, upper=upper, digits=digits)
     assert isclose(told, value, rel_tol=10.0 ** (1 - digits))
     assert (told - value) * (1 if upper else -1) >= -2 * EXACT_SHARE * 10.0 ** (1 - digits) * value
-    assert away(-value, upper=not upper, digits=digits) == -told
+    assert rounded_outward(-value, upper=not upper, digits=digits) == -told
 
 
 def test_significant_digits_of_nothing_and_of_large_numbers():
-    assert away(0.0, upper=True, digits=4) == 0.0
-    assert (away(123456.0, upper=True, digits=4), away(123456.0, upper=False, digits=4)) == (123500, 123400)
+    assert rounded_outward(0.0, upper=True, digits=4) == 0.0
+    assert (
+        rounded_outward(123456.0, upper=True, digits=4),
+        rounded_outward(123456.0, upper=False, digits=4),
+    ) == (123500, 123400)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.refiner import SHOWS_LESS, subject_of
 from shotc_casadi.clock.rounds import refine_clock
 from shotc_casadi.clock.several import WHOLE
-from shotc_casadi.clock.shown import held_whole, shown
+from shotc_casadi.clock.shown import held_whole, visibility_of
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.ir.preference import MOST_MOVED
@@ -92,7 +92,7 @@ def test_a_subject_that_hardly_fits_is_kept_whole_by_going_back_a_little() -> No
     plain = refine_clock(of)
     assert plain.leg is not None
     # A calm camera alone goes nearer.
-    assert shown(of, plain.leg).cropped > max(0.01, shown(of, of.leg).cropped)
+    assert visibility_of(of, plain.leg).cropped > max(0.01, visibility_of(of, of.leg).cropped)
     assert in_frame(BESIDE) == 1.0
     (guide, far), (ours, _) = (flown(subject(BESIDE, step)) for step in ("solve-path-qp", "refine-path"))
     assert (ours <= np.maximum(MOST_MOVED * far, guide + ROUNDING)).all()

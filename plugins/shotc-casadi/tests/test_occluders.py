@@ -12,7 +12,7 @@ from shotc_casadi.clock.occluders import Occluder, enclosing, occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.refiner import subject_of
 from shotc_casadi.clock.rounds import refine_clock
-from shotc_casadi.clock.shown import past_occluders, shown
+from shotc_casadi.clock.shown import past_occluders, visibility_of
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom.solids import Cylinder, Prism, box
@@ -174,14 +174,14 @@ def test_a_drone_between_camera_and_subject_is_looked_past() -> None:
 def test_where_nothing_hides_the_subject_the_shot_is_refined_as_ever() -> None:
     of = subject(mission(LATERAL, **AWAY))
     plain = refine_clock(of)
-    assert shown(of, of.leg).free.mean == 1.0
+    assert visibility_of(of, of.leg).free.mean == 1.0
     assert past_occluders(of, plain) is None
 
 
 @pytest.mark.slow
 def test_a_place_that_the_author_gave_is_kept_whatever_hides_the_subject() -> None:
     of = subject(mission("kind: static, at: [63, -8, 3], look_at: runner", **CROSSING))
-    assert shown(of, of.leg).free.mean < 0.99
+    assert visibility_of(of, of.leg).free.mean < 0.99
     assert past_occluders(of, refine_clock(of)) is None
 
 
@@ -202,7 +202,7 @@ def test_who_passes_between_two_keyframes_is_looked_past_and_these_stay() -> Non
 @pytest.mark.slow
 def test_a_camera_that_keyframes_keep_beside_a_target_stays_there() -> None:
     of = subject(mission(KEYED.replace("LAST", "[0, -8, 3]"), **CROSSING))
-    assert shown(of, of.leg).free.mean < 0.99
+    assert visibility_of(of, of.leg).free.mean < 0.99
     assert past_occluders(of, refine_clock(of)) is None
 
 
@@ -215,7 +215,7 @@ def test_a_promise_goes_before_the_line_of_sight() -> None:
     assert past_occluders(subject(mission(LATERAL, **PASSING)), plain) is not None
     path, told = refine_clocks(of.path, "ours")
     assert told == ()
-    assert shown(of, subject_of(path, "s").leg).largest <= 0.3005
+    assert visibility_of(of, subject_of(path, "s").leg).largest <= 0.3005
 
 
 def test_a_distance_off_the_ideal_is_the_size_s_and_the_view_s_error_in_one() -> None:

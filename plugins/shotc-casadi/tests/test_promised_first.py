@@ -75,7 +75,7 @@ def test_a_part_that_is_hidden_is_no_reason_to_break_a_promise(
     }
     legs = {name: _copy(of.leg) for name in seen}
     monkeypatch.setattr(
-        shown, "shown", lambda _, leg, which=0: next(seen[n] for n, one in legs.items() if one is leg)
+        shown, "visibility_of", lambda _, leg, which=0: next(seen[n] for n, one in legs.items() if one is leg)
     )
     assert as_whole(of, legs["before"], legs["after"]) is taken
     assert not as_whole(of, legs["after"], legs["before"])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.replan.keeping import StaticObstacles, common, each, ends, kept, pitched, rows
+from shotc_casadi.replan.keeping import StaticObstacles, common, each, ends, pitched, row_counts, rows
 
 from shotc.geom.solids import Cylinder, box
 from shotc.plugin_api.replanner import NO_TRAFFIC, NO_WALLS, Cone, Keeping, Traffic, Walls
@@ -41,7 +41,7 @@ def found(
     walls: Walls = NO_WALLS,
 ) -> Found:
     near = StaticObstacles(keeping).near(np.zeros(3), 1e3)
-    of = kept(keeping, near, traffic, walls)
+    of = row_counts(keeping, near, traffic, walls)
     shared = common(keeping, near, step, traffic, walls)
     own = each(traffic, walls, keeping.margin) if of.each else np.zeros((len(states), 0))
     x, t, p, g = ca.SX.sym("x", 6), ca.SX.sym("t", 3), ca.SX.sym("p", of.each), ca.SX.sym("g", len(shared))

@@ -15,7 +15,7 @@ from shotc_casadi.clock.references import ClockSubject, references_at
 from shotc_casadi.clock.refiner import KEPT, subject_of
 from shotc_casadi.clock.rounds import NEARLY_SHARE, REACH_M, ROOM_SHARE, flown_cost
 from shotc_casadi.clock.several import pictured
-from shotc_casadi.clock.shown import no_less, shown
+from shotc_casadi.clock.shown import no_less, visibility_of
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.geom import viewpoint
@@ -234,7 +234,7 @@ def test_what_is_flown_never_costs_more_than_its_guide(seed: int) -> None:
 
 
 def shown_hidden(of: ClockSubject, leg: ClockLeg) -> float:
-    return sum(1.0 - shown(of, leg, which).free.mean for which in range(len(of.framed)))
+    return sum(1.0 - visibility_of(of, leg, which).free.mean for which in range(len(of.framed)))
 
 
 def test_where_the_guide_is_better_by_its_own_cost_it_is_flown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -250,13 +250,13 @@ def test_where_the_guide_is_better_by_its_own_cost_it_is_flown(monkeypatch: pyte
 
 def test_a_motion_that_crops_a_subject_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     of = subject(CORNER)
-    true = shown
+    true = visibility_of
 
     def cropped(one: ClockSubject, leg: ClockLeg, which: int = 0) -> object:
         found = true(one, leg, which)
         return found if leg is of.leg or which == 0 else found._replace(cropped=0.1)
 
-    monkeypatch.setattr("shotc_casadi.clock.shown.shown", cropped)
+    monkeypatch.setattr("shotc_casadi.clock.shown.visibility_of", cropped)
     path, _ = refine_clocks(of.path, "ours")
     assert subject_of(path, "s").leg is of.leg
 

@@ -37,11 +37,11 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
         nearest = nearest_on_segments(part, hulls[:, 0], hulls[:, 1])
         starts = np.concatenate([starts, nearest[:, None]], axis=1)
     ways_out = np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))
-    towards, _ = _away(part, starts)
+    towards, _ = _directions(part, starts)
     best, best_gap = _widest(part, hulls, np.concatenate([ways_out, towards], axis=1))
     at = np.take_along_axis(hulls, distances(part, hulls).argmin(axis=1)[:, None, None], axis=1)[:, 0]
     for _ in range(rounds):
-        n, far = _away(part, at)
+        n, far = _directions(part, at)
         best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
         # No gap exceeds the distance of two points. A point inside gives no new direction.
         if ((best_gap >= (1.0 - CLOSE_SHARE) * far) | (far <= TOUCHES_M)).all():
@@ -61,7 +61,7 @@ def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
     return np.asarray(np.einsum("nmd,nd->nm", hulls, normals).min(axis=1) - support(part, normals))
 
 
-def _away(part: Solid, p: Array) -> tuple[Array, Array]:
+def _directions(part: Solid, p: Array) -> tuple[Array, Array]:
     """Return unit directions (..., 3) from a solid to points (..., 3), up if inside, and distances (...)."""
     offset = p - closest_points(part, p)
     far = np.linalg.norm(offset, axis=-1)

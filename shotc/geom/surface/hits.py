@@ -70,7 +70,7 @@ def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Ar
     planes = cross(corners, corners[:, [1, 2, 0]])
     volume = dot(corners[:, 0], planes[:, 1])
     planes *= np.sign(volume)[:, None, None]
-    products = np.einsum("ksd,kpd->skp", planes, _ways(boards)[frame]) @ cells(n)
+    products = np.einsum("ksd,kpd->skp", planes, _ray_basis(boards)[frame]) @ cells(n)
     inside = np.minimum(np.minimum(products[0], products[1]), products[2]) >= 0.0
     whole = products[0] + products[1] + products[2]
     met = inside & (whole > 0.0) & (volume != 0.0)[:, None]
@@ -80,7 +80,7 @@ def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Ar
 def _disc_shares(points: Array, boards: Billboards, frame: IntArray, disc: tuple[int, float]) -> Array:
     """Return the shares (K, n * n) at which rays meet discs at points (K, 3); disc : n, and their radius."""
     n, radius = disc
-    rays = np.einsum("fpd,pc->fcd", _ways(boards), cells(n))
+    rays = np.einsum("fpd,pc->fcd", _ray_basis(boards), cells(n))
     offset = points - boards.eye[frame]
     along = np.einsum("kcd,kd->kc", rays[frame], offset)
     square = dot(rays, rays)[frame]
@@ -88,6 +88,6 @@ def _disc_shares(points: Array, boards: Billboards, frame: IntArray, disc: tuple
     return np.where((along > 0.0) & (off <= radius**2), along / square, np.inf)
 
 
-def _ways(boards: Billboards) -> Array:
+def _ray_basis(boards: Billboards) -> Array:
     """Return the vectors from the eyes to the corner, and the sides, of the billboards, (F, 3, 3)."""
     return np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)

@@ -134,7 +134,7 @@ def separate(triangles: Array, hulls: Array) -> tuple[Array, Array]:
     each = np.arange(len(hulls))
     at = hulls[each, _distances(triangles, hulls).argmin(axis=1)]
     for _ in range(NEAREST_POINT_STEPS):
-        n, far = _away(triangles, at)
+        n, far = _directions(triangles, at)
         its = _gaps(triangles, hulls, n[:, None])[:, 0]
         wins = its > gap
         normal[wins], gap[wins] = n[wins], its[wins]
@@ -154,7 +154,7 @@ def _first(triangles: Array, hulls: Array) -> tuple[Array, Array]:
     level = cross(one, other)[:, None]
     across = cross(sides, chord[:, None])  # the shortest line between chord and side is normal to both
     outward = cross(sides, level)
-    ends = np.stack([_away(triangles, hulls[:, end])[0] for end in (0, -1)], axis=1)
+    ends = np.stack([_directions(triangles, hulls[:, end])[0] for end in (0, -1)], axis=1)
     normals = np.concatenate([level, across, outward, _from_corners(triangles, hulls), ends], axis=1)
     normals = np.concatenate([normals, -normals], axis=1)
     length = np.sqrt(dot(normals, normals))[..., None]
@@ -185,7 +185,7 @@ def _distances(triangles: Array, hulls: Array) -> Array:
     return closest_points.distance.reshape(-1, count)
 
 
-def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
+def _directions(triangles: Array, p: Array) -> tuple[Array, Array]:
     """Return unit directions (K, 3) from triangles to points (K, 3) (up on them), and distances (K,)."""
     closest_points = closest(triangles, p)
     offset = p - closest_points.point

@@ -12,7 +12,7 @@ from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 
 from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
-from shotc.importers.cameras.places import level, reached, shown, without_far
+from shotc.importers.cameras.places import clamped_hfov, level, reached, without_far
 from shotc.importers.cameras.table import CameraTable, TableRow, table_of
 from shotc.importers.cameras.takes import (
     MOST_CAMERAS,
@@ -152,7 +152,7 @@ def _hfov(values: dict[str, float | None]) -> float:
     if hfov is None:
         lens, sensor = values.get("lens") or USUAL_LENS_MM, values.get("sensor") or USUAL_SENSOR_MM
         hfov = degrees(field_of_view(max(lens, 1e-3), sensor))
-    return shown(hfov)
+    return clamped_hfov(hfov)
 
 
 def _axes(values: dict[str, float | None], unit: float) -> tuple[Vec3, Vec3, Vec3] | None:

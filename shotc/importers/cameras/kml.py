@@ -14,12 +14,12 @@ from typing import NamedTuple
 from shotc.geom.vec import Vec3
 from shotc.importers.archive import MAGIC, member
 from shotc.importers.cameras.places import (
+    clamped_hfov,
     is_place,
     level,
     number,
     origin_at,
     reached,
-    shown,
     without_far,
     world,
 )
@@ -249,5 +249,5 @@ def _camera(view: KmlView, origin: GeoOrigin, notes: Notes) -> ImportedCamera:
     back = view.range * sin(tilt)
     at = (x - back * sin(heading), y - back * cos(heading), z + view.range * cos(tilt))
     pitch = reached(view.node, view.tilt - 90.0, notes)
-    hfov = USUAL_HFOV_DEG if view.hfov is None else shown(view.hfov)
+    hfov = USUAL_HFOV_DEG if view.hfov is None else clamped_hfov(view.hfov)
     return ImportedCamera(view.node, at, view.heading, pitch, hfov, view.time, view.hold)

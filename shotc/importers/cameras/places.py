@@ -75,7 +75,7 @@ def reached(node: Node, pitch: float, notes: Notes) -> float:
     return nearest
 
 
-def shown(hfov: float) -> float:
+def clamped_hfov(hfov: float) -> float:
     """Return the field of view clamped to the range of the language, degrees."""
     return max(NARROWEST_DEG, min(WIDEST_DEG, hfov))
 

@@ -17,10 +17,10 @@ from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import (
     LARGEST_COORDINATE_M,
     aim,
+    clamped_hfov,
     is_place,
     origin_at,
     reached,
-    shown,
     without_far,
     world,
 )
@@ -263,7 +263,7 @@ def _turn(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
         looks.pitch, looks.yaw, looks.place = p[0], p[1] or 0.0, None
         looks.locked = bool(int(p[4] or 0.0) & YAW_LOCK_FLAG)
     elif item.command == ZOOM and p[0] == FOCAL_LENGTH_ZOOM_TYPE and 0 < (p[1] or 0.0) < LARGEST_FOCAL_MM:
-        looks.hfov = shown(degrees(field_of_view((p[1] or 0.0) / 1e3)))
+        looks.hfov = clamped_hfov(degrees(field_of_view((p[1] or 0.0) / 1e3)))
     elif item.command == MOUNT and p[0] is not None:
         looks.pitch, looks.yaw, looks.locked, looks.place = p[0], p[2] or 0.0, False, None
 

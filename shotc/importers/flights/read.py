@@ -9,7 +9,7 @@ from shotc.importers.flights import items, litchi, skyc, wpml, zipped
 from shotc.importers.flights.endings import SHOW, TABLE, TABLES, largest, suffix_of
 from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
 from shotc.importers.flights.rows import DroneRows, rows
-from shotc.importers.xml_tree import Node, shown
+from shotc.importers.xml_tree import Node, readable_text
 
 Found = Waypoints | tuple[DroneRows, ...] | skyc.SkycShow
 
@@ -40,10 +40,10 @@ def read(data: bytes, name: str) -> Read:
             return Read(name, zipped.tables(data), "")
         if suffix in (".kmz", ".wpml", ".kml"):
             inside = wpml.text_of(data)
-            text = shown(inside)
+            text = readable_text(inside)
             name = name if inside is data else f"{name}/{wpml.WAYLINES}"
             return Read(name, wpml.waypoints(inside), text)
-        text = shown(data)
+        text = readable_text(data)
         if suffix == TABLE:
             head = text.partition("\n")[0]
             return Read(name, litchi.waypoints(text) if "latitude" in head else rows(text), text)

@@ -19,7 +19,7 @@ from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, Unread, refuse
 from shotc.importers.flights.rows import MOST_ROWS, PLACE, DroneRows, check_order, numbers_of
 from shotc.importers.notes import plain
-from shotc.importers.xml_tree import Node, shown
+from shotc.importers.xml_tree import Node, readable_text
 
 HEADS = ("time_msec", "time [msec]")
 """Start of the optional header line, in lower case."""
@@ -56,7 +56,7 @@ def tables(data: bytes) -> tuple[DroneRows, ...]:
             refuse(UNREADABLE, member, WHOLE)
         if len(by_drone) == MOST_DRONES:
             refuse(UNREADABLE, f"it has more than {MOST_DRONES} tables, and no more are read", WHOLE, SPLIT)
-        table = _Table(plain(member[0], 80), shown(member[1]))
+        table = _Table(plain(member[0], 80), readable_text(member[1]))
         try:
             rows = _rows(table, left, by_drone)
         except Unread as stopped:

@@ -60,10 +60,10 @@ def without_far(sequences: Rows[Sequence], notes: Notes) -> list[Sequence]:
                 message = f"a point that is {off / 1000:.0f} km from most others"
                 notes.assume(point.node, message, "the point is left out")
                 far.add(id(point))
-    return [s._replace(actions=tuple(_kept(a, far) for a in s.actions)) for s in sequences]
+    return [s._replace(actions=tuple(_without_far(a, far) for a in s.actions)) for s in sequences]
 
 
-def _kept(action: ShootingAction, far: set[int]) -> ShootingAction:
+def _without_far(action: ShootingAction, far: set[int]) -> ShootingAction:
     origin = None if id(action.origin) in far else action.origin
     return action._replace(points=tuple(p for p in action.points if id(p) not in far), origin=origin)
 

@@ -115,7 +115,7 @@ def houses_of(
         else:
             wrong.append(BuildingFault(footprint.name, footprint.number, shape))
     whole = _replaced(shapes)
-    houses = _made(whole.left, height)
+    houses = _houses(whole.left, height)
     return houses._replace(
         wrong=(*wrong, *houses.wrong),
         uncovered=tuple(whole.uncovered),
@@ -192,7 +192,7 @@ def _inheriting(part: _RingFootprint, outline: _RingFootprint) -> _RingFootprint
     return part._replace(footprint=footprint, extent=extent, outline=outline.footprint)
 
 
-def _made(shapes: Iterable[_RingFootprint], height: float | None) -> Houses:
+def _houses(shapes: Iterable[_RingFootprint], height: float | None) -> Houses:
     """Return the houses of shapes; height : of those with an unknown height, or None."""
     houses: list[House] = []
     wrong: list[BuildingFault] = []

@@ -78,12 +78,13 @@ def off_composition(keyframe: Keyframe, setting: FixedCamera, requested: Vec2, p
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
         lambda mission, shot: (
-            f"{_what_fits(keyframe, setting, mission, shot)}, or {_kept(keyframe, mission)} to allow cropping"
+            f"{_what_fits(keyframe, setting, mission, shot)}, or "
+            f"{_to_keep(keyframe, mission)} to allow cropping"
         ),
     )
 
 
-def _kept(keyframe: Keyframe, mission: MissionIR) -> str:
+def _to_keep(keyframe: Keyframe, mission: MissionIR) -> str:
     """Return how to keep a place on screen; a keyframe's own `frame` precedes its shot's composition."""
     own = (*keyframe.path, "frame") in mission.origins.values
     return "write `frame: keep`" if own else "set `composition: keep`"

@@ -9,7 +9,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import ClockDeviation, PathIR, filmed
 from shotc.passes.refine_path.finding import RefinerFault
 from shotc.passes.refine_path.seat import Seat
-from shotc.passes.refine_path.settle import kept, same
+from shotc.passes.refine_path.settle import kept_convex, same
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
 
 OF_THE_CONVEX = ("Q007",)
@@ -40,7 +40,7 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
     refined = _refined(paths)
     if all(shot.refine_optional for shot in refined):
         faults = [RefinerFault(None, error) for error in errors]
-        return Blame(True, tuple(kept(before, seat, shot.id, faults) for shot in refined))
+        return Blame(True, tuple(kept_convex(before, seat, shot.id, faults) for shot in refined))
     notes = [note for error in errors for note in (error.message, *error.notes)]
     return Blame(
         False,

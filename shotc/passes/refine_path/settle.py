@@ -47,7 +47,7 @@ def settle(before: PathIR, seat: Seat, answer: RefinerAnswer) -> Outcome[PathIR]
         concerned = {fault.shot for fault in faults if fault.shot is not None}
     optional = {shot.id for shot in shots if shot.refine_optional}
     if concerned <= optional:
-        told_of = (kept(before, seat, name, faults) for name in sorted(concerned))
+        told_of = (kept_convex(before, seat, name, faults) for name in sorted(concerned))
         return Outcome(path, (*answer.warnings, *told_of))
     errors = dict.fromkeys(fault.diagnostic for fault in faults if fault.shot not in optional)
     return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.diagnostic for fault in faults))))
@@ -143,7 +143,7 @@ def same(a: Leg, b: Leg) -> bool:
     return np.array_equal(a.curve.breaks, b.curve.breaks) and np.array_equal(a.curve.ctrl, b.curve.ctrl)
 
 
-def kept(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault]) -> Diagnostic:
+def kept_convex(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault]) -> Diagnostic:
     """Return the warning of a shot that keeps its convex path, with the faults of the refined one."""
     mission = before.keyframes.mission
     path = mission.shot(shot).path

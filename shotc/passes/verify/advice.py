@@ -9,7 +9,7 @@ from shotc.ir.measures import USUAL_DIGITS, enough, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
-from shotc.rounding import at_least, away
+from shotc.rounding import at_least, rounded_outward
 
 REPLAN = "plan the mission again"
 
@@ -43,7 +43,7 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
         longer = at_least((phase.end - phase.start) * stretch, 1)
         time = f"give shot `{phase.shot}` {longer} s or more"
         if claim.drones:
-            times = away(stretch, upper=True, digits=USUAL_DIGITS)
+            times = rounded_outward(stretch, upper=True, digits=USUAL_DIGITS)
             time = f"give the moves of shot `{phase.shot}` {times:.4g} times their time"
         return f"{time}, or {setting}; then plan again" if setting else f"{time}; then plan again"
     return f"{setting}, or {REPLAN}" if setting else REPLAN
@@ -72,7 +72,7 @@ def _setting(mission: MissionIR, claim: Claim) -> str:
     verb = "raise" if claim.upper else "lower"
     worst, remark = enough(claim), ""
     if _is_in_wind(mission, claim):
-        total = away(claim.worst + mission.wind, upper=True, digits=USUAL_DIGITS)
+        total = rounded_outward(claim.worst + mission.wind, upper=True, digits=USUAL_DIGITS)
         worst = f"{total:.{USUAL_DIGITS}g} {claim.unit}"
         remark = f" ({measure(mission.wind, claim.unit)} of wind are taken off)"
     return f"{verb} {which}`{'.'.join(keys)}` to {worst}{remark}"

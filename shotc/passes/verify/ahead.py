@@ -24,7 +24,7 @@ from shotc.ir.path import BODY_YAW, CAM_YAW, X, Y, Z
 from shotc.ir.phases import Phase
 from shotc.ir.rules import SLOW_M_S
 from shotc.ir.trajectory import Claim, DroneTrajectory
-from shotc.ir.transits import TransitInterval, ways
+from shotc.ir.transits import TransitInterval, transit_intervals
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
 from shotc.rounding import at_least
 
@@ -52,7 +52,9 @@ def ahead(flight: JudgedFlight) -> Iterator[Claim]:
     half_angle = flight.mission.rules.look_ahead
     if half_angle is None:
         return
-    between = [span for interval in ways(flight.track.phases) if (span := judged(flight, interval))]
+    between = [
+        span for interval in transit_intervals(flight.track.phases) if (span := judged(flight, interval))
+    ]
     yield from _claimed(flight, half_angle, between, None)
     for phase in _filmed(flight.track):
         if why_not(flight.mission, flight.track, phase) is None:

@@ -105,9 +105,9 @@ def _walk(written: Any, reviewed: Any, at: _ComparedPlace) -> Iterator[MissionDi
         return
     if isinstance(written, float | int) and isinstance(reviewed, float | int):
         if not _same(written, reviewed, at.near):
-            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+            yield at.differs(f" is {_as_text(written)} in the plan, but {_as_text(reviewed)} in the mission")
     elif type(written) is not type(reviewed):
-        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+        yield at.differs(f" is {_as_text(written)} in the plan, but {_as_text(reviewed)} in the mission")
     elif names := field_names(reviewed):
         near = ITERATED_SHARE if getattr(reviewed, "framed", False) is True else at.near
         here = at._replace(path=getattr(reviewed, "path", at.path), near=near)
@@ -117,7 +117,7 @@ def _walk(written: Any, reviewed: Any, at: _ComparedPlace) -> Iterator[MissionDi
     elif isinstance(reviewed, tuple):
         yield from _items(written, reviewed, at)
     elif written != reviewed:
-        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+        yield at.differs(f" is {_as_text(written)} in the plan, but {_as_text(reviewed)} in the mission")
 
 
 def _items(
@@ -129,7 +129,7 @@ def _items(
     elif all(isinstance(item, float | int | str) for item in (*written, *reviewed)):
         pairs = zip(written, reviewed, strict=False)
         if len(written) != len(reviewed) or not all(_same(one, other, at.near) for one, other in pairs):
-            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(reviewed)} in the mission")
+            yield at.differs(f" is {_as_text(written)} in the plan, but {_as_text(reviewed)} in the mission")
     elif len(written) != len(reviewed):
         yield at.differs(f": the plan has {len(written)}, the mission asks for {len(reviewed)}")
     else:
@@ -187,7 +187,7 @@ def _same(a: Any, b: Any, near: float) -> bool:
     return bool(a == b) and isinstance(a, bool) == isinstance(b, bool)
 
 
-def _shown(value: Any) -> str:
+def _as_text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):
@@ -195,7 +195,7 @@ def _shown(value: Any) -> str:
     if isinstance(value, int):
         return clip(str(value))
     if isinstance(value, tuple) and not field_names(value):
-        return clip(f"({', '.join(map(_shown, value))})")
+        return clip(f"({', '.join(map(_as_text, value))})")
     if field_names(value):
         return f"a {type(value).__name__}"
     return "nothing" if value is None else f"`{clip(str(value))}`"

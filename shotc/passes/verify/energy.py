@@ -31,14 +31,16 @@ def energy(flight: JudgedFlight) -> Iterator[Claim]:
     if power is None:
         return
     path = (*flight.drone.path, "power", "battery")
-    whole = taken(flight, power, lift_off(curve), curve.end)
+    whole = energy_bound(flight, power, lift_off(curve), curve.end)
     limit = Limit(ENERGY, power.usable / J_PER_WH, "Wh", path)
     yield claim(flight, limit, WorstValue(whole / J_PER_WH))
     for phase in flight.track.phases:
         if phase.shot is not None:
             energy_limit = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
             yield claim(
-                flight, energy_limit, WorstValue(taken(flight, power, phase.start, phase.end) / J_PER_WH)
+                flight,
+                energy_limit,
+                WorstValue(energy_bound(flight, power, phase.start, phase.end) / J_PER_WH),
             )
 
 
@@ -52,7 +54,7 @@ def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
     return ", ".join([*parts, f"all else {measure(rest, claim.unit)}"])
 
 
-def taken(flight: JudgedFlight, power: Power, start: float, end: float) -> float:
+def energy_bound(flight: JudgedFlight, power: Power, start: float, end: float) -> float:
     """Return an upper bound of the energy of this trajectory between two times, J.
 
     Climbing adds half of the gain of potential and kinetic energy, divided by the efficiency.

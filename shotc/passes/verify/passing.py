@@ -17,7 +17,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.ir.transits import TransitInterval, ways
+from shotc.ir.transits import TransitInterval, transit_intervals
 from shotc.passes.verify.claims import first_least, gap, slack
 from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
@@ -78,7 +78,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
     radius = mission.drone(track.drone).radius
     kind, _, own = name.partition(" ")
     passes = []
-    for interval in ways(track.phases):
+    for interval in transit_intervals(track.phases):
         bound = on_way((solid, curve), claim.limit + radius, interval)
         if bound.proven - radius >= claim.limit - slack(claim.limit):
             continue
@@ -150,10 +150,10 @@ def _refused(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Diagnostic:
 
 def _near(claim: Claim, passed: ClosestPass) -> str:
     has, needs = distinct_measures(passed.has, passed.needs, "m")
-    return f"{passed.name} at {has} {_where(passed.interval)}; {needs} {_kept(claim)}"
+    return f"{passed.name} at {has} {_where(passed.interval)}; {needs} {_strength_words(claim)}"
 
 
-def _kept(claim: Claim) -> str:
+def _strength_words(claim: Claim) -> str:
     return "are required" if claim.hard else "are the default where there is room"
 
 

@@ -11,7 +11,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.owners import owner_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.visible import AT_FIRST, AT_LAST, VISIBLE
-from shotc.rounding import at_least, away
+from shotc.rounding import at_least, rounded_outward
 
 OUTLINES = frozenset({"V028", "V029"})
 """Codes of broken promises on the visible share of a target."""
@@ -73,7 +73,7 @@ def target_of(claim: Claim, code: str) -> str:
 
 def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
     """Return the promise to write instead, if there is one, and another remedy."""
-    promise = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
+    promise = _kept_promise(claim, code, shot, certificate) if isfinite(claim.worst) else ""
     return f"promise `{promise}`, or {_INSTEAD[code]}" if promise else _INSTEAD[code]
 
 
@@ -104,7 +104,7 @@ def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
             yield f"the shot leaves its ideal path by up to {at_least(deviation.distance)} m, round {cause}"
 
 
-def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
+def _kept_promise(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
     """Return the promise that holds, as YAML; empty where there is none worth a line."""
     if code in {"V019", "V028"} and claim.worst < SMALLEST_SHARE:
         return ""
@@ -116,7 +116,7 @@ def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -
         return f"visible: {enough(claim)}"
     if code == "V029":
         return _reveal(shot, certificate)
-    error = away(claim.worst, upper=True, digits=_DIGITS)
+    error = rounded_outward(claim.worst, upper=True, digits=_DIGITS)
     return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST_HALF_FRAMES else ""
 
 
@@ -127,8 +127,8 @@ def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     broken = [c for c in certificate if c.shot == shot.id and not c.holds and _ENDS["V021"] in c.constraint]
     if not all(isfinite(c.worst) for c in broken):
         return ""
-    low = min([low, *(away(c.worst, upper=False, digits=_DIGITS) for c in broken if not c.upper)])
-    high = max([high, *(away(c.worst, upper=True, digits=_DIGITS) for c in broken if c.upper)])
+    low = min([low, *(rounded_outward(c.worst, upper=False, digits=_DIGITS) for c in broken if not c.upper)])
+    high = max([high, *(rounded_outward(c.worst, upper=True, digits=_DIGITS) for c in broken if c.upper)])
     return f"size: [{low:g}, {high:g}]" if high <= 1 else ""
 
 
@@ -138,7 +138,7 @@ def _reveal(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     shares = []
     for promised, end in zip(shot.promise.reveal, (AT_FIRST, AT_LAST), strict=True):
         broken = [c for c in certificate if c.shot == shot.id and not c.holds and c.constraint.endswith(end)]
-        worst = [away(c.worst, upper=c.upper, digits=_DIGITS) for c in broken]
+        worst = [rounded_outward(c.worst, upper=c.upper, digits=_DIGITS) for c in broken]
         shares.append((max if broken[0].upper else min)(worst) if broken else promised)
     (first, last), (start, finish) = shot.promise.reveal, shares
     if (finish - start) * (last - first) <= 0:

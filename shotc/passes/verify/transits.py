@@ -17,7 +17,7 @@ from shotc.geom.solids import Solid, distance
 from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
-from shotc.ir.transits import SolidClearance, TransitInterval, from_target, from_zones, ways
+from shotc.ir.transits import SolidClearance, TransitInterval, from_target, from_zones, transit_intervals
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, first_least, gap, less
 
 ENDING = " on transits"
@@ -30,19 +30,21 @@ def transits(flight: JudgedFlight) -> Iterator[Claim]:
     for target in mission.targets:
         apart = from_target(mission, target.name)
         if apart is not None:
-            yield from _kept(flight, f"target {target.name}", (target.kept_clear, beside(own, target)), apart)
+            yield from _clearance(
+                flight, f"target {target.name}", (target.kept_clear, beside(own, target)), apart
+            )
     apart = from_zones(mission)
     for zone in mission.zones:
         if apart is not None and zone.keep == "out":
-            yield from _kept(flight, f"zone {zone.name}", (zone.solid, own), apart)
+            yield from _clearance(flight, f"zone {zone.name}", (zone.solid, own), apart)
 
 
-def _kept(
+def _clearance(
     flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: SolidClearance
 ) -> Iterator[Claim]:
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
-    bounds = [on_way(near, clearance, interval) for interval in ways(flight.track.phases)]
+    bounds = [on_way(near, clearance, interval) for interval in transit_intervals(flight.track.phases)]
     if not bounds:
         return
     worst = first_least(bounds, gap(clearance))

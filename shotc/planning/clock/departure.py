@@ -142,7 +142,7 @@ def choose(
             tried.append(transfer)
             fine = (
                 _unseen(others, transfer, waits(transfer)) >= 0.0
-                and _kept(transfer, waits(transfer)) >= -PROVED_M
+                and _transfer_slack(transfer, waits(transfer)) >= -PROVED_M
             )
             if transfer.clear and fine and (in_time or len(tried) == 1):
                 return transfer
@@ -152,7 +152,7 @@ def choose(
 
     def worth(transfer: Transfer) -> tuple[bool, bool, float, float, bool, float, float, float]:
         late = max(0.0, transfer.end - deadline)
-        lack = min(_kept(transfer, waits(transfer)), 0.0)
+        lack = min(_transfer_slack(transfer, waits(transfer)), 0.0)
         unseen = _unseen(others, transfer, waits(transfer))
         required = min(transfer.required, 0.0)
         apart = transfer.slack if when.deadline is None else transfer.on_way
@@ -170,7 +170,7 @@ def choose(
     return max(tried, key=worth, default=None)
 
 
-def _kept(transfer: Transfer, waits: float) -> float:
+def _transfer_slack(transfer: Transfer, waits: float) -> float:
     """Return the slack of a transfer over the clearances of transfers, metres.
 
     A penalty is subtracted where the next leg would wait longer for it than a preference may cost.
@@ -180,7 +180,7 @@ def _kept(transfer: Transfer, waits: float) -> float:
 
 def _unseen(others: OtherVehicles, transfer: Transfer, waits: float) -> float:
     """Return how far a transfer is out of the pictures of others, metres, where that counts; waits : as in
-    ``_kept``.
+    ``_transfer_slack``.
 
     Where free pictures are only preferred, the result is 0 if the preference is met at an acceptable wait,
     else minus infinity.
@@ -225,7 +225,7 @@ def _tries(
         )
         slack, on_way = float(slacks.min(initial=inf)), float(slacks[until_then].min(initial=inf))
         unseen = seen_on(drone, others.visibility, times, places)
-        met = _met(others.moving, drone.radius, course, times[until_then])
+        met = _nearest_target(others.moving, drone.radius, course, times[until_then])
         between = until_then & ~upright
         kept_from = (*others.moving, *others.later)
         apart = [(what, _apart(what, times[between], places[between])) for what in kept_from]
@@ -318,7 +318,9 @@ def _needs(what: Moving, radius: float, upright: Mask) -> Array:
     return np.where(upright & (not what.always), radius, what.clearance)
 
 
-def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array) -> TargetConflict | None:
+def _nearest_target(
+    moving: Sequence[Moving], radius: float, course: _Course, times: Array
+) -> TargetConflict | None:
     """Return the target that a course comes nearest to, if that is too near."""
     nearest = [_nearest(what, radius, course, times) for what in moving if not what.always]
     worst = max(nearest, key=lambda met: met.lack, default=None)

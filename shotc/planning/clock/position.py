@@ -72,14 +72,14 @@ def fly(task: ClockTask) -> PositionResult:
     if plain.curve is None:
         return plain
     best = plain
-    pictures = _kept(task, plain.curve)
+    pictures = _picture_half_spaces(task, plain.curve)
     for _ in range(PICTURE_ROUNDS):
         if pictures.worst >= 0.0 or best.curve is None:
             break
         freer = _fly(task, pictures.half_spaces)
         if freer.curve is None:
             break
-        later = _kept(task, freer.curve)
+        later = _picture_half_spaces(task, freer.curve)
         if later.worst <= pictures.worst + PROVED_M:
             break
         best, pictures = replace(freer, rounds=best.rounds + freer.rounds, freed=True), later
@@ -128,7 +128,7 @@ def _apart_floors(task: ClockTask, course: Piecewise) -> tuple[HalfSpaceRows, ..
     return tuple(half_spaces for half_spaces in (rows, *ends) if len(half_spaces.offset))
 
 
-def _kept(task: ClockTask, course: Piecewise) -> PictureHalfSpaces:
+def _picture_half_spaces(task: ClockTask, course: Piecewise) -> PictureHalfSpaces:
     span = (task.clock.start, task.clock.end)
     return keep_free(task.camera_task, task.visibility, span, task.clock.breaks, course)
 

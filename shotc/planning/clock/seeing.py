@@ -122,7 +122,7 @@ class VisibleShares:
         )
 
 
-def shown(task: ClockTask, spans: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
+def visible_shares(task: ClockTask, spans: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
     """Return what a camera shows on ways; curve : all channels over the task's clock."""
     mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
     for span in spans:

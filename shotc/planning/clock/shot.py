@@ -31,7 +31,7 @@ from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import PositionResult, fly, held_where_it_rests, standing_by
-from shotc.planning.clock.seeing import led_to_see, shown, ways_of
+from shotc.planning.clock.seeing import led_to_see, visible_shares, ways_of
 from shotc.planning.clock.task import ClockTask, led
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
@@ -152,7 +152,7 @@ def timed_shot(
         return NoMotion(curve, (), "camera")
     task, flown, curve = _seeing(_PlannedMotion(task, flown, curve))
     assert flown.curve is not None
-    distances = _away(task, flown.curve)
+    distances = _off_ideal(task, flown.curve)
     keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.framing(shot.id)
     leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, keyframes)
@@ -195,7 +195,7 @@ def _seeing(best: _PlannedMotion) -> _PlannedMotion:
     spans = ways_of(task)
     if not spans:
         return best
-    least = shown(task, spans, best.curve)
+    least = visible_shares(task, spans, best.curve)
     for _ in range(SEEING_ROUNDS):
         led = led_to_see(task, spans, best.curve)
         if led is None:
@@ -204,7 +204,7 @@ def _seeing(best: _PlannedMotion) -> _PlannedMotion:
         turned = motion.status if motion.curve is None else _with_camera(led, motion.curve)
         if isinstance(turned, Status):
             break
-        improved = shown(led, spans, turned)
+        improved = visible_shares(led, spans, turned)
         if not improved.better(least):
             break
         best, least = _PlannedMotion(led, motion, turned), improved
@@ -229,7 +229,7 @@ def _flown(
         flown = fly(task)
         if flown.curve is None:
             continue
-        off = float(_away(task, flown.curve).max())
+        off = float(_off_ideal(task, flown.curve).max())
         if best is None or off < LESS_SHARE * least:
             best, least = (task, flown), off
         if off <= NOTICE_M or (off <= FAR_M and not held_where_it_rests(task, flown.curve)):
@@ -313,7 +313,7 @@ def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) 
 
 
 def _deviations(task: ClockTask, flown: PositionResult, off_ideal: Array) -> tuple[ClockDeviation, ...]:
-    """Return the worst deviation of each interval off the ideal; off_ideal : as of ``_away``."""
+    """Return the worst deviation of each interval off the ideal; off_ideal : as of ``_off_ideal``."""
     times = _filmed(task)
     return tuple(
         ClockDeviation(
@@ -328,7 +328,7 @@ def _filmed(task: ClockTask) -> Array:
     return np.append(np.arange(task.clock.start, task.clock.end, STEP_S), task.clock.end)
 
 
-def _away(task: ClockTask, curve: Piecewise) -> Array:
+def _off_ideal(task: ClockTask, curve: Piecewise) -> Array:
     """Return the distances of the camera from its ideal at those times, metres, shape (M,)."""
     times = _filmed(task)
     ideal = ideal_places(task.mission, task.shot, task.clock.start, times)

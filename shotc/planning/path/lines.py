@@ -117,7 +117,7 @@ def shot_line(
             near = []
         if not near:
             chosen.append(i)
-    polylines = _ways(space, points, chosen)
+    polylines = _polylines(space, points, chosen)
     if isinstance(polylines, NoWay):
         return polylines
     dropped = tuple(i for i in range(len(keyframes)) if i not in chosen)
@@ -137,7 +137,7 @@ def line_beside(
     for k, between in enumerate(attractors):
         places += [between, points[k + 1 : k + 2]]
         of += [-1] * len(between) + [k + 1]
-    polylines = _ways(space, np.concatenate(places), list(range(len(of))))
+    polylines = _polylines(space, np.concatenate(places), list(range(len(of))))
     if isinstance(polylines, NoWay):
         return polylines
     ends = np.cumsum([len(leg) - 1 for leg in polylines])
@@ -162,7 +162,7 @@ def _drawn(
     return course.places if course.for_sight.any() else None
 
 
-def _ways(space: FreeSpace, points: Array, numbers: list[int]) -> list[Array] | NoWay:
+def _polylines(space: FreeSpace, points: Array, numbers: list[int]) -> list[Array] | NoWay:
     a, b = points[numbers[:-1]], points[numbers[1:]]
     polylines = []
     shut = blocked(space, a, b)

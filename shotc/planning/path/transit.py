@@ -137,7 +137,7 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Polyline | None:
     """
     a, b, flight = near[0], near[-1], spaces.flight
     full, wide = _settled(wide, near[[0, -1]]), replace(wide, ends=_ends(near))
-    if _kept(wide, near):
+    if _keeps_clearances(wide, near):
         return _of(near)
     short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / TAPER_SLOPE
     bent = _bent(flight, wide, a, b) if short else None
@@ -174,7 +174,7 @@ def _of(corners: Array) -> Polyline:
     return Polyline(corners, s, tuple([-1] * len(corners)))
 
 
-def _kept(space: FreeSpace, corners: Array) -> bool:
+def _keeps_clearances(space: FreeSpace, corners: Array) -> bool:
     """Return whether a polyline keeps tapered clearances."""
     points = _along(corners)
     return bool(_keeps(space, points).all())
@@ -227,7 +227,7 @@ def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | Non
     places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN_M)]
     order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
     polylines = (np.stack([a, place, b]) for place in places[order[:MOST_PLACES]])
-    return next((corners for corners in polylines if _kept(wide, corners)), None)
+    return next((corners for corners in polylines if _keeps_clearances(wide, corners)), None)
 
 
 def _shortest(a: Array, places: Array, b: Array) -> Array | None:

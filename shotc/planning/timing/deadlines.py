@@ -190,7 +190,7 @@ def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _Missed
     moves: list[TimedMove] = []
     for m, move in enumerate(timed.fast):
         own = [p for p in parts if p.move == m]
-        slowed = _made(timed, move, own)
+        slowed = _move_of(timed, move, own)
         if slowed is None:
             known = [p for p in own if p.deadline < len(deadlines)]
             return _MissedDeadline(min(known, key=lambda p: p.duration / p.least).deadline)
@@ -217,7 +217,7 @@ def _parts(plan: StopPlan, moves: tuple[TimedMove, ...], start: float, end: floa
     return parts
 
 
-def _made(timed: LegDeadlines, fast: TimedMove, parts: list[_MovePart]) -> TimedMove | None:
+def _move_of(timed: LegDeadlines, fast: TimedMove, parts: list[_MovePart]) -> TimedMove | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0 - SOLVED_SHARE, parts[0].duration / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))

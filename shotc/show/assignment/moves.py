@@ -8,7 +8,7 @@ from math import ceil, inf, isfinite
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import kept as keeps
+from shotc.geom.apart import keeps_separation as keeps
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest

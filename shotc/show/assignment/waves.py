@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import kept, stretch
+from shotc.geom.apart import keeps_separation, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import Nearest, closest
 from shotc.ir.effects import Way
@@ -94,7 +94,7 @@ class Waves:
             self.faults.append(too_fast(self.mission, self.fleet, picture, move, distance))
             return move
         nearest = self._nearest(ends, move)
-        if not kept(nearest.proven, self.fleet.apart.across):
+        if not keeps_separation(nearest.proven, self.fleet.apart.across):
             self.faults.append(self._too_near(ends, display, picture, nearest))
             return move
         lack = self.sky.lack(ends, move)
@@ -125,7 +125,7 @@ class Waves:
             departs = departures(wave._replace(time=seconds), display.viewpoint, wider)
             assert departs is not None
             move = self._timed(wider, departs, display, picture)
-            return kept(self._nearest(wider, move).proven, apart.across)
+            return keeps_separation(self._nearest(wider, move).proven, apart.across)
 
         longest = 0.0
         if enough(0.0, 1.0):

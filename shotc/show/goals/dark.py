@@ -29,7 +29,7 @@ def dark_places(goals: Array, spare: int, setting: SpacingTask, facing: Array = 
     facing : (3,), horizontal viewing direction for a picture without an audience
     """
     chosen_places: list[Array] = []
-    for places in _layers(goals, setting, _away(goals, setting, facing)):
+    for places in _layers(goals, setting, _viewing_direction(goals, setting, facing)):
         chosen = np.unique(np.linspace(0, len(places) - 1, min(spare, len(places))).round().astype(np.intp))
         chosen_places.append(places[chosen])
         spare -= len(chosen)
@@ -61,7 +61,7 @@ def _layers(goals: Array, setting: SpacingTask, direction: Array) -> Iterator[Ar
         yield behind
 
 
-def _away(goals: Array, setting: SpacingTask, facing: Array) -> Array:
+def _viewing_direction(goals: Array, setting: SpacingTask, facing: Array) -> Array:
     """Return the horizontal viewing direction of the picture, (3,)."""
     if setting.viewpoint is None:
         return facing

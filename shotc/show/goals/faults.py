@@ -88,7 +88,7 @@ def too_many(
         message += f"; about {remedies.number} would"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
     return Diagnostic(
-        "D056", message, labels, (apart(setting),), _ways(fleet, remedies, "show another picture")
+        "D056", message, labels, (apart(setting),), _remedies(fleet, remedies, "show another picture")
     )
 
 
@@ -104,7 +104,7 @@ def too_dark(
     dark, full = len(fleet.pads) - number, len(fleet.pads)
     message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
-    help_ = _ways(fleet, remedies, "make it larger")
+    help_ = _remedies(fleet, remedies, "make it larger")
     return Diagnostic("D062", message, labels, (apart(setting),), help_)
 
 
@@ -117,7 +117,7 @@ def apart(setting: SpacingTask) -> str:
     return f"so that drones can pass each other on straight ways, goals are {far}"
 
 
-def _ways(fleet: Fleet, advice: PictureRemedies, otherwise: str) -> str:
+def _remedies(fleet: Fleet, advice: PictureRemedies, otherwise: str) -> str:
     remedies = []
     if advice.number is not None:
         remedies.append(

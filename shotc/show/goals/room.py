@@ -116,7 +116,7 @@ def least_shift(goals: Array, surroundings: DisplaySurroundings) -> Array | None
     may exist.
     """
     best: Array | None = None
-    for direction in _ways():
+    for direction in _directions():
         most = FAR_M if best is None else float(np.linalg.norm(best))
         length = _along(goals, surroundings, direction, most)
         if length is not None and length < most:
@@ -139,7 +139,7 @@ def _along(goals: Array, surroundings: DisplaySurroundings, direction: Array, mo
     return None
 
 
-def _ways() -> Array:
+def _directions() -> Array:
     """Return unit vectors: up, down, horizontal in all directions, and these tilted by 45 degrees up and
     down.
     """

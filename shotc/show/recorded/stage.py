@@ -165,7 +165,7 @@ def _staged(
         None if rise is None else float(clock.breaks[rise]),
         None if fall is None else float(clock.breaks[fall]),
         _lights(tracks, times, clock.breaks),
-        _shown(clock.breaks, rise or 0, count if fall is None else fall),
+        _sample_times(clock.breaks, rise or 0, count if fall is None else fall),
     )
     longer = round(float(clock.breaks[-1]) - step * count, 6)
     at = 0.0 if clock.need is None else float(times[clock.need.piece + 1])
@@ -259,6 +259,6 @@ def _lights(tracks: RecordedTracks, times: Array, breaks: Array) -> Lights:
     return Lights(np.round(np.interp(sampled, known, flown), 6), colors)
 
 
-def _shown(breaks: Array, first: int, last: int) -> tuple[float, ...]:
+def _sample_times(breaks: Array, first: int, last: int) -> tuple[float, ...]:
     chosen = np.unique(np.round(np.linspace(first, last, SHOWN_TIMES)).astype(int))
     return tuple(float(breaks[k]) for k in chosen)

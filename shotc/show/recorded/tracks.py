@@ -140,11 +140,11 @@ def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, 
     for row, light in zip(levels, lights, strict=True):
         for k in range(3):
             row[:, k] = np.interp(times, light.times, [color[k] for color in light.colors])
-    distinct = _kept(times, levels)
+    distinct = _kept_times(times, levels)
     return times[distinct], np.asarray(np.rint(levels[:, distinct]), dtype=np.uint8)
 
 
-def _kept(times: Array, levels: NDArray[np.float32]) -> list[int]:
+def _kept_times(times: Array, levels: NDArray[np.float32]) -> list[int]:
     """Return which times are kept: swing-door trending (Bristol 1990) over all lights at once."""
     distinct = [0]
     low = np.full(levels[:, 0].shape, -np.inf)

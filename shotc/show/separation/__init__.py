@@ -14,7 +14,7 @@ from itertools import combinations
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import kept, straight_spacing
+from shotc.geom.apart import keeps_separation, straight_spacing
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
@@ -68,6 +68,6 @@ def _meeting(
     fleets = mission.fleet(one.fleet), mission.fleet(other.fleet)
     apart = stricter(fleets[0].apart, fleets[1].apart)
     near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
-    if kept(near.proven, apart.across):
+    if keeps_separation(near.proven, apart.across):
         return []
     return [fleets_meet(mission, pair, near, apart.across, later_start(mission, every, pair))]

@@ -43,7 +43,7 @@ def standing_too_near(
     mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, nearest: Nearest
 ) -> Diagnostic:
     """Return D085: two places of one picture, or two pads, are too near."""
-    frame = _shown(flight, nearest.time)
+    frame = _frame_at(flight, nearest.time)
     where = "on or over its pads" if frame is None else f"in display `{frame.display}`"
     path = fleet.path if frame is None else _path(mission, frame)
     share = at_least(fleet.apart.across / max(nearest.attained, 1e-3))
@@ -187,7 +187,7 @@ def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:
     return (mission.origins.value((*fleet.path, "separation"), "the separation"),)
 
 
-def _shown(flight: FleetTrajectory, time: float) -> FrameTimes | None:
+def _frame_at(flight: FleetTrajectory, time: float) -> FrameTimes | None:
     """Return the frame that is shown at a time, or the next one; None during take-off and the way home."""
     first, last = flight.phases[0].end, flight.phases[-2].start
     if time <= first or time > last:

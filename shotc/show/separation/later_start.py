@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from shotc.geom.apart import kept
+from shotc.geom.apart import keeps_separation
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
@@ -60,4 +60,4 @@ def _apart(mission: MissionIR, flight: FleetTrajectory, seconds: float, other: F
     apart = stricter(mission.fleet(flight.fleet).apart, mission.fleet(other.fleet).apart)
     moved = replace(flight, breaks=flight.breaks + seconds)
     near = closest_between(moved.breaks, moved.coef, other.breaks, other.coef, apart)
-    return kept(near.proven, apart.across)
+    return keeps_separation(near.proven, apart.across)

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from shotc.geom.apart import kept
+from shotc.geom.apart import keeps_separation
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, FrameTimes
@@ -114,7 +114,7 @@ class _Trial:
         if len(result.failed):
             return False
         coef = short(breaks, result.coef, bounds, CONTROL_DECIMALS)
-        if kept(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
+        if keeps_separation(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
             return True
         tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))
         self.left -= tried.rounds

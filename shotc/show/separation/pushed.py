@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.geom.apart import kept
+from shotc.geom.apart import keeps_separation
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Fleet
@@ -76,7 +76,7 @@ def pushed(
         if len(result.failed):
             continue
         reached = max(reached, closest(breaks, result.coef, fleet.apart).proven)
-        if kept(reached, fleet.apart.across):
+        if keeps_separation(reached, fleet.apart.across):
             return Pushed(result.coef, k + 1, reached)
     return Pushed(None, rounds, reached)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import kept
+from shotc.geom.apart import keeps_separation
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
 from shotc.geom.on_pads import Mask
@@ -53,9 +53,9 @@ class Keeper:
     def keep(self) -> FleetTrajectory:
         """Return the flight with its drones kept apart, or as far as it was repaired if there are faults."""
         self.proven = self._alike()
-        if not kept(self.proven, self.across):
+        if not keeps_separation(self.proven, self.across):
             self.proven = self._closest().proven
-        if kept(self.proven, self.across):
+        if keeps_separation(self.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
@@ -106,7 +106,7 @@ class Keeper:
     def _mend(self, window: Window) -> None:
         breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
         nearest = self._closest(window)
-        if kept(nearest.proven, self.across):
+        if keeps_separation(nearest.proven, self.across):
             return
         self.ctx.progress(f"repairing fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
@@ -156,6 +156,6 @@ class Keeper:
             at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
             time = float(self.flight.breaks[stop])
             nearest = closest(np.array([time, time + 1.0]), at, self.fleet.apart)
-            if not kept(nearest.proven, self.across):
+            if not keeps_separation(nearest.proven, self.across):
                 return replace(nearest, time=time)
         return None

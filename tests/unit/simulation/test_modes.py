@@ -7,7 +7,7 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.kalman import MotionModel, PositionFix, predicted
-from shotc.simulation.modes import LASTS_S, begun, stepped, taken
+from shotc.simulation.modes import LASTS_S, begun, stepped, updated_modes
 from shotc.simulation.seen import WALKS
 from shotc.simulation.tracker import Tracker
 
@@ -60,7 +60,7 @@ def test_shares_are_those_of_bayes_rule() -> None:
     start = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), CALM).now(0.0)
     models = (CALM, AGILE)
     fix = PositionFix(2.0, np.array([[3.0, -1.0, 0.5]]), 0.1, np.array([True]))
-    found = taken(stepped(begun(start, models), 2.0, models), fix)
+    found = updated_modes(stepped(begun(start, models), 2.0, models), fix)
     stays = np.exp(-2.0 / LASTS_S)
     before = np.array([0.5, 0.5]) @ (stays * np.eye(2) + 0.5 * (1.0 - stays))
     density = []
@@ -84,6 +84,6 @@ def test_a_run_without_a_measurement_believes_as_before() -> None:
     start = Tracker.beginning(0.0, np.zeros((2, 3)), np.zeros((2, 3)), CALM).now(0.0)
     models = (CALM, AGILE)
     fix = PositionFix(1.0, np.full((2, 3), 4.0), 0.1, np.array([True, False]))
-    found = taken(stepped(begun(start, models), 1.0, models), fix)
+    found = updated_modes(stepped(begun(start, models), 1.0, models), fix)
     assert found.share[1] == pytest.approx([0.5, 0.5])
     assert found.share[0, 1] > 0.6

@@ -97,7 +97,7 @@ def _tried(
     freed, whole = (None if one is None else _zoomed(subject, one) for one in (freed, whole))
     reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))
     first = next((one for one, _ in reasons if one is not None and one.leg is not None), None)
-    taken, moved = _taken(path, reasons, unseen=unseen)
+    taken, moved = _first_flyable(path, reasons, unseen=unseen)
     given_up = taken is not first
     return _RefinedShot(
         taken or replace(refined, leg=None), moved, IN_PICTURE if given_up else why, message, given_up
@@ -113,7 +113,7 @@ def _zoomed(subject: ClockSubject, refined: ClockRefined) -> ClockRefined:
     return replace(refined, leg=leg)
 
 
-def _taken(
+def _first_flyable(
     path: PathIR, candidates: tuple[tuple[ClockRefined | None, str], ...], *, unseen: bool
 ) -> tuple[ClockRefined | None, PathIR]:
     """Return the first of a shot's refinements that may be flown, and the path with it.

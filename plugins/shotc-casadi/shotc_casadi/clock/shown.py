@@ -96,12 +96,12 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     if failed or not follows or ideal is None or ideal.placed or cropped_on_purpose(subject.framed[0]):
         return None
     before = plain.leg or subject.leg
-    if shown(subject, before).cropped <= SLACK_SHARE:
+    if visibility_of(subject, before).cropped <= SLACK_SHARE:
         return None
     refined = refine_clock(replace(subject, held_whole=True), unseen=unseen)
     if refined.leg is None:
         return None
-    fewer = shown(subject, refined.leg).cropped < shown(subject, before).cropped - SLACK_SHARE
+    fewer = visibility_of(subject, refined.leg).cropped < visibility_of(subject, before).cropped - SLACK_SHARE
     return refined if fewer and as_whole(subject, before, refined.leg) else None
 
 
@@ -126,7 +126,7 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     corrects = keeps_promises(subject, after) and not keeps_promises(subject, before)
     against = lost if len(subject.framed) == 1 and not corrects else broken
     for which in range(len(subject.framed)):
-        old, new = shown(subject, before, which), shown(subject, after, which)
+        old, new = visibility_of(subject, before, which), visibility_of(subject, after, which)
         if new.cropped > old.cropped + SLACK_SHARE or not _promised(subject, old, new):
             return False
         if against(subject.placed, old.free, new.free) > 0.0:
@@ -136,17 +136,17 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
 
 def keeps_promises(subject: ClockSubject, leg: ClockLeg) -> bool:
     """Return whether a leg keeps the promises of its shot for all subjects."""
-    every = (shown(subject, leg, which) for which in range(len(subject.framed)))
+    every = (visibility_of(subject, leg, which) for which in range(len(subject.framed)))
     return all(_promised(subject, FLAWLESS, one) for one in every)
 
 
 def _covered(subject: ClockSubject, leg: ClockLeg) -> float:
     """Return the mean covered share of the outline over the frames, summed over all subjects."""
-    return sum(1.0 - shown(subject, leg, which).free.mean for which in range(len(subject.framed)))
+    return sum(1.0 - visibility_of(subject, leg, which).free.mean for which in range(len(subject.framed)))
 
 
 @lru_cache(maxsize=8)  # several rules compare a guide with its refinement
-def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> SubjectVisibility:
+def visibility_of(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> SubjectVisibility:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
     t = np.linspace(leg.start, leg.end, max(2, int(RATE_HZ * (leg.end - leg.start))))

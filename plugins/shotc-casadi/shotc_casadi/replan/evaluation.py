@@ -115,10 +115,10 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> HorizonFunc
     count, slack = n * s.x.numel(), ca.DM.zeros(len(prices.lacking), n)
     unit = _unit(prices, lack, late)
     step = [
-        _taken(laid.cost.order, [hessian]),
+        _in_order(laid.cost.order, [hessian]),
         _with_slack(gradient, s, ca.repmat(price, 1, n) * unit),
-        _taken(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
-        _taken(laid.bound.order, [row_slopes, end.slopes, _each(unit, counts, s.ends.numel())]),
+        _in_order(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
+        _in_order(laid.bound.order, [row_slopes, end.slopes, _each(unit, counts, s.ends.numel())]),
         -ca.vertcat(ca.vec(rows), end.rows),
         _with_slack(low, s, slack),
         _with_slack(high, s, slack + ca.inf),
@@ -280,7 +280,7 @@ def _each(unit: Any, counts: Sequence[int], ends: int) -> Any:
     return ca.vertcat(ca.vec(rows), ca.repmat(unit[0, -1], ends, 1))
 
 
-def _taken(order: Index, parts: list[Any]) -> Any:
+def _in_order(order: Index, parts: list[Any]) -> Any:
     return ca.MX(ca.vertcat(*map(ca.vec, parts)))[order.tolist()]
 
 

@@ -20,7 +20,7 @@ from shotc.plugin_api.replanner import (
     Walls,
 )
 from shotc_casadi.replan.evaluation import HorizonFunctions
-from shotc_casadi.replan.keeping import RowCounts, StaticObstacles, common, each, kept
+from shotc_casadi.replan.keeping import RowCounts, StaticObstacles, common, each, row_counts
 from shotc_casadi.replan.steps import Solver, Walk
 
 BEYOND = "the motion from here is beyond all numbers"
@@ -59,7 +59,7 @@ class ShotSolvers:
         east, north = limits.wind
         self._lowest = np.array([east - limits.speed, north - limits.speed, -limits.descent])
         self._highest = np.array([east + limits.speed, north + limits.speed, limits.climb])
-        self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC, NO_WALLS))
+        self._solver(row_counts(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC, NO_WALLS))
 
     def solver(self, place: Array, v: Array, traffic: Traffic, walls: Walls) -> tuple[Solver, bool]:
         """Return the solver with all constraints written, and whether the velocity widens its bounds.
@@ -68,7 +68,7 @@ class ShotSolvers:
         """
         fastest = max(self._keeping.limits.fastest, float(np.linalg.norm(v)))
         near = self._standing.near(place, fastest * self._way)
-        of = kept(self._keeping, near, traffic, walls)
+        of = row_counts(self._keeping, near, traffic, walls)
         solver = self._solver(of)
         into = solver.evaluation
         into.start[:3], into.start[3:6] = place, v

@@ -76,7 +76,9 @@ class StaticObstacles:
         return tuple(self._rooms[i] for i in np.flatnonzero(distances < distance + REACH_M))
 
 
-def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic, walls: Walls) -> RowCounts:
+def row_counts(
+    keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic, walls: Walls
+) -> RowCounts:
     """Return which rows there are in one replan."""
     low, high = keeping.pitch
     return RowCounts(

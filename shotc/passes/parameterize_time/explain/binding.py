@@ -150,7 +150,7 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
     """Return labels on the limits that bind, at most two, and on the wind if it lowers one."""
     by_span: dict[Span, Label] = {}
     for name in holdup.names[:2]:
-        limit = _shown(drone, name)
+        limit = _shown_limit(drone, name)
         label = mission.origins.value((*drone.path, *limit.key), limit.words)
         before = by_span.get(label.span)
         by_span[label.span] = (
@@ -175,12 +175,12 @@ def raises(
     for name in names:
         factor = _least_factor(partial(_with, enough, full, name))
         if factor is not None and BENDING_RATIO * factor <= _alone(drone, name):
-            key = ".".join(_shown(drone, name).key)
+            key = ".".join(_shown_limit(drone, name).key)
             texts.append(f"raise `{key}` to {limit_text(mission, drone, name, factor)}")
     return texts
 
 
-def _shown(drone: Drone, name: str) -> _Shown:
+def _shown_limit(drone: Drone, name: str) -> _Shown:
     """Return how the mission's limit behind a limit of the ceiling is shown."""
     if name != "acceleration":
         return _SHOWN[name]
@@ -193,7 +193,7 @@ def _alone(drone: Drone, name: str) -> float:
     if name != "acceleration":
         return inf
     least, following, _ = sorted(drone.limits.acceleration_bounds.values())
-    if _shown(drone, name) is _SHOWN["tilt"]:
+    if _shown_limit(drone, name) is _SHOWN["tilt"]:
         following = min(following, HIGHEST_TILT_SINE * G_M_S2)
     return following / least
 
@@ -217,12 +217,12 @@ def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
     wind = ""
     if name == "speed" and mission.wind > 0:
         wind = f" less {mission.wind:.2f} m/s of wind" if mission.wind_taken else " in the wind"
-    return f"{_shown(drone, name).words} {limit_text(mission, drone, name)}{wind}"
+    return f"{_shown_limit(drone, name).words} {limit_text(mission, drone, name)}{wind}"
 
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
     """Return a limit in the mission's unit, multiplied by a factor and then rounded up."""
-    limit = _shown(drone, name)
+    limit = _shown_limit(drone, name)
     value = factor * getattr(ceiling_of(drone), name)
     if factor == 1.0:
         return f"{_written(mission, limit, value):.2f} {limit.unit}"

@@ -92,11 +92,11 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
             if met is not None:
                 order.insert(0, order.pop(met))
                 continue
-            if _shown(mission, shot, [move(k, by) for k in order]):
+            if _on_composition(mission, shot, [move(k, by) for k in order]):
                 yield by
             break
 
 
-def _shown(mission: MissionIR, shot: Shot, keyframes: Sequence[Keyframe]) -> bool:
+def _on_composition(mission: MissionIR, shot: Shot, keyframes: Sequence[Keyframe]) -> bool:
     """Return whether the target is on its composition set at every keyframe."""
     return not place_shot(mission, shot._replace(keyframes=tuple(keyframes)))[1]

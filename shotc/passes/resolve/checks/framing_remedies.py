@@ -10,7 +10,7 @@ from shotc.geom.viewpoint import RequiredView, lens_for
 from shotc.ir.framed_scene import lens_of
 from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.setpoints import Setpoint
-from shotc.rounding import away, down
+from shotc.rounding import down, rounded_outward
 
 Fits = Callable[[MissionIR, Shot], bool]
 """Whether a framing is feasible in a mission."""
@@ -75,7 +75,7 @@ def for_lens(
         yield "take a longer lens"
         return
     for share in SHARES:
-        hfov = away(degrees(widest) * share, upper=False, digits=2)
+        hfov = rounded_outward(degrees(widest) * share, upper=False, digits=2)
         lens = drone._replace(hfov=radians(hfov))
         drones = tuple(lens if d is drone else d for d in mission.drones)
         if hfov >= 1.0 and fits(mission._replace(drones=drones), shot):

@@ -26,7 +26,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     p, drone = keyframe.at, mission.drone(shot.drone)
     free = free_place(mission, drone, p, obstacle)
     looks = keyframe.target is not None and keyframe.aim is None
-    if not looks or (free is not None and _shown(mission, shot, keyframe, free)):
+    if not looks or (free is not None and _on_composition(mission, shot, keyframe, free)):
         return "move it to a free place" if free is None else move(p, free)
     around = clearances_of(mission, drone)
     centre = mission.target(str(keyframe.target)).centre
@@ -37,7 +37,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
             low = mission.lowest(place, drone.radius)
             if place[2] < low - ROUNDING_M or any(o.lack(place) > ROUNDING_M for o in around):
                 continue
-            if _shown(mission, shot, keyframe, place):
+            if _on_composition(mission, shot, keyframe, place):
                 places.append(place)
                 break
     if not places:
@@ -54,6 +54,6 @@ def _farther(centre: Vec3, place: Vec3) -> Iterator[Vec3]:
         yield (x, y, z)
 
 
-def _shown(mission: MissionIR, shot: Shot, keyframe: Keyframe, at: Vec3) -> bool:
+def _on_composition(mission: MissionIR, shot: Shot, keyframe: Keyframe, at: Vec3) -> bool:
     """Return whether the target is on its composition set from a place."""
     return not place_shot(mission, shot._replace(keyframes=(keyframe._replace(at=at),)))[1]

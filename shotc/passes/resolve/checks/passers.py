@@ -103,12 +103,12 @@ def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
             place = (x + rings * reach * cos(angle), y + rings * reach * sin(angle), z)
             there = drone._replace(home=outward(drone.home, place))
             wider = there._replace(radius=wide)
-            if stands_free(mission, there) and not any(_met(wider, t) for t in mission.targets):
+            if stands_free(mission, there) and not any(_passes_over(wider, t) for t in mission.targets):
                 return move(drone.home, there.home).replace("move it", "move `home`", 1)
     return f"move `home` {at_least(reach)} m or more aside from the track of `{target.name}`"
 
 
-def _met(drone: Drone, target: Target) -> bool:
+def _passes_over(drone: Drone, target: Target) -> bool:
     """Return whether a target ever passes over a pad."""
     return target.track is not None and any(_touches(drone, target, target.track))
 

@@ -123,9 +123,9 @@ def _show(ir: LoadedMission, world: _World, shots: Shots, heard: Heard) -> ShowM
     """Return what fleets fly and draw; a mission without them loads none of it."""
     if not ir.spec.fleets:
         return ShowMaterial()
-    from shotc.passes.resolve.lower.show import shown
+    from shotc.passes.resolve.lower.show import show_material
 
-    return shown(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
+    return show_material(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
 
 
 def _world(ir: LoadedMission) -> _World:

@@ -154,7 +154,11 @@ def match_files(
     if folder is None:
         note = "the mission has no folder"
         return Diagnostic("N008", f"cannot look for `{pattern}`", label, (note,), NO_FOLDER)
-    names = _kept(folder, where, last) if isinstance(folder, KeptFiles) else _listed(folder, where, last)
+    names = (
+        _matching_names(folder, where, last)
+        if isinstance(folder, KeptFiles)
+        else _listed(folder, where, last)
+    )
     if isinstance(names, str):
         return Diagnostic("N008", f"cannot look for `{pattern}`", label, (names,), "check the folder's name")
     if not names:
@@ -170,7 +174,7 @@ def _fitting(pattern: str) -> re.Pattern[str]:
     return re.compile(translate(pattern.replace("[", "[[]")))
 
 
-def _kept(files: KeptFiles, where: str, pattern: str) -> list[str]:
+def _matching_names(files: KeptFiles, where: str, pattern: str) -> list[str]:
     """Return the names in a folder that match a pattern, among the files that existed when they were
     listed.
     """

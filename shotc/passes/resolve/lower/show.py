@@ -10,7 +10,7 @@ from shotc.passes.resolve.lower.world import PadSite
 from shotc.spec.load import LoadedMission
 
 
-def shown(
+def show_material(
     ir: LoadedMission,
     site: PadSite,
     files: Files,

@@ -83,7 +83,7 @@ def _places(spec: MissionSpec) -> Iterator[Place]:
             *(k.at for k in keyframes),
         )
         yield from (spot for spot in spots if isinstance(spot, tuple | Geodetic))
-        yield from _shown(shot)
+        yield from _picture_places(shot)
 
 
 def _pads(spec: MissionSpec) -> Iterator[Place]:
@@ -104,7 +104,7 @@ def _about(place: Place, reach: float) -> Iterator[Place]:
         yield from ((x + side * reach, y + side * reach, z) for side in (-1.0, 1.0))
 
 
-def _shown(shot: ShotBase) -> Iterator[Place]:
+def _picture_places(shot: ShotBase) -> Iterator[Place]:
     """Yield where the pictures of a display are, and its audience; frames are of the kind's own models."""
     if (viewpoint := getattr(shot, "viewpoint", None)) is not None:
         yield viewpoint

@@ -82,7 +82,7 @@ def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Cl
         pad = track.curve(0.0)[:3]
         limit = Limit(f"separation from {track.drone}", least, "m", ("rules", "separation"), upper=False)
         bound = nearest(flight.flown.bag(), point((float(pad[0]), float(pad[1]), float(pad[2]))), gap(least))
-        yield bounded(flight, limit, bound, partial(_away, pad))
+        yield bounded(flight, limit, bound, partial(_distances, pad))
     for flight, fleet in product(flights, parked_fleets(ir)):
         pads = np.repeat(np.array(fleet.pads)[:, None], 4, axis=1)
         yield between(flight.mission, (flight.fleet, fleet), _spline(flight), (np.array([0.0, 1.0]), pads))
@@ -92,7 +92,7 @@ def _spline(flight: FleetFlight) -> Spline:
     return flight.track.breaks, flight.track.coef
 
 
-def _away(pad: Array, places: Array) -> Array:
+def _distances(pad: Array, places: Array) -> Array:
     return norm(places - pad)
 
 

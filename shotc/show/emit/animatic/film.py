@@ -73,7 +73,7 @@ def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
     """Yield a picture of each time, seen by the audience of the current or next display."""
     flights = plan.trajectory.fleets
     marks = [-np.inf, *_ends(plan)[:-1], np.inf]
-    for display, (first, last) in zip(_shown(plan), pairwise(marks), strict=True):
+    for display, (first, last) in zip(_displays(plan), pairwise(marks), strict=True):
         these = times[(times > first) & (times <= last)]
         if not len(these):
             continue
@@ -88,7 +88,7 @@ def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
             yield _picture(sky, light, float(time))
 
 
-def _shown(plan: VerifiedIR) -> list[str]:
+def _displays(plan: VerifiedIR) -> list[str]:
     """Return the displays in the order of their start."""
     starts = {s.display: s.start for f in plan.trajectory.fleets for s in reversed(f.shown)}
     return sorted(starts, key=lambda name: starts[name])
@@ -96,7 +96,7 @@ def _shown(plan: VerifiedIR) -> list[str]:
 
 def _ends(plan: VerifiedIR) -> list[float]:
     ends = {s.display: s.end for f in plan.trajectory.fleets for s in f.shown}
-    return [ends[name] for name in _shown(plan)]
+    return [ends[name] for name in _displays(plan)]
 
 
 def _seen(flight: FleetTrajectory, times: Array, behind: Scenery) -> tuple[Array, Levels]:

@@ -12,7 +12,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.path import BODY_YAW, X, Y
 from shotc.ir.phases import Phase
 from shotc.ir.rules import SLOW_M_S
-from shotc.ir.transits import ways
+from shotc.ir.transits import transit_intervals
 from shotc.passes.verify.ahead import ahead, judged, unjudged
 from shotc.passes.verify.claims import JudgedFlight
 from tests.support.records import replace
@@ -132,7 +132,7 @@ def test_beside_a_shot_of_what_moves_a_way_is_judged_between_rests(rest, on_cloc
     if on_clock:
         shots = (replace(one.mission.shots[0], ideal=object()),)
         one = replace(one, mission=replace(one.mission, shots=shots))
-    assert [judged(one, way) for way in ways(one.track.phases)] == spans
+    assert [judged(one, way) for way in transit_intervals(one.track.phases)] == spans
 
 
 def test_where_it_hardly_moves_it_has_no_course() -> None:

@@ -12,7 +12,7 @@ from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.ir.transits import TransitInterval, ways
+from shotc.ir.transits import TransitInterval, transit_intervals
 from shotc.passes.verify import judge
 from tests.support.records import replace
 
@@ -62,7 +62,9 @@ def gaps(plan: VerifiedIR, target: str, way: TransitInterval) -> tuple[np.ndarra
 
 
 def nearest(plan: VerifiedIR, target: str) -> float:
-    return min(float(gaps(plan, target, way)[0].min()) for way in ways(plan.trajectory.drones[0].phases))
+    return min(
+        float(gaps(plan, target, way)[0].min()) for way in transit_intervals(plan.trajectory.drones[0].phases)
+    )
 
 
 def claim_of(certificate: tuple[Claim, ...], constraint: str) -> Claim:
@@ -122,7 +124,7 @@ def test_a_walker_is_passed_at_5_m_where_there_is_time() -> None:
 def test_a_shot_at_2_m_begins_and_ends_there_and_its_ways_taper() -> None:
     shots = "  - {id: near, kind: static, drone: cam, at: [-2.55, 1.8, 3], look_at: person}\n"
     plan = plan_of(PERSON, shots)
-    for way in ways(plan.trajectory.drones[0].phases):
+    for way in transit_intervals(plan.trajectory.drones[0].phases):
         gap, away = gaps(plan, "person", way)
         needs = np.minimum(5.0, (gap[[0, -1]] + 0.5 * away).min(axis=1))
         assert (gap >= needs - 1e-6).all()
@@ -222,7 +224,7 @@ def test_a_plan_that_passes_nearer_than_the_mission_requires_is_refused(
 
 def test_ways_are_all_that_is_neither_filmed_nor_over_the_pad(past_tower: VerifiedIR) -> None:
     phases = past_tower.trajectory.drones[0].phases
-    found = ways(phases)
+    found = transit_intervals(phases)
     assert [way.shot for way in found] == ["west", "east", None]
     assert [way.start for way in found] == [
         next(p.end for p in phases if p.name == "takeoff"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.geom.apart import kept
+from shotc.geom.apart import keeps_separation
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Apart, Sphere
@@ -57,7 +57,7 @@ def test_cylinders_take_arcs_where_a_pair_asks_for_them(step: float, arc: bool) 
     assert isinstance(move, ArcMove) == arc
     coef = np.stack([*[starts] * 3, *move.between(starts, standing), *[standing] * 3], axis=1)
     breaks = np.arange(coef.shape[1] - 2) * (move.duration / move.pieces)
-    assert kept(closest(breaks, coef, UPRIGHT).proven, 1.5)
+    assert keeps_separation(closest(breaks, coef, UPRIGHT).proven, 1.5)
 
 
 @pytest.mark.slow

@@ -125,7 +125,7 @@ class _EarlyPicture(NamedTuple):
     earliest: float
 
 
-def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[_EarlyPicture]]:
+def _earliest_end(display: Display, begin: float, limits: Limits) -> tuple[float, list[_EarlyPicture]]:
     """Return the earliest end of a display that begins at a time, and its pictures that are late."""
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
@@ -139,7 +139,7 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
 def least_display(display: Display, limits: Limits) -> float:
     """Return the least time from a display's first picture, standing, to the end of its last, seconds."""
     begin = _begin(display, limits) or 0.0
-    return _shown(display, begin, limits)[0] - begin
+    return _earliest_end(display, begin, limits)[0] - begin
 
 
 def _begin(display: Display, limits: Limits) -> float | None:
@@ -226,7 +226,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
         if start is not None and start < max(there, waits) - ROUNDING_S:
             faults.append(_early(mission, display, last, there, waits))
         begin = max(start or 0.0, there, waits)
-        ends[display.id], late = _shown(display, begin, limits)
+        ends[display.id], late = _earliest_end(display, begin, limits)
         faults += [_late(mission, late_start) for late_start in late[:1]]
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
     for shot in mission.shots:
