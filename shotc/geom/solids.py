@@ -26,11 +26,6 @@ class Cylinder(NamedTuple):
         scale = min(1.0, self.radius / distance) if distance > 0 else 0.0
         return (self.centre[0] + dx * scale, self.centre[1] + dy * scale, _clamp(p[2], self.bottom, self.top))
 
-    def support(self, n: Vec3) -> float:
-        """Return max of n.x over the solid."""
-        rim = self.radius * hypot(n[0], n[1])
-        return n[0] * self.centre[0] + n[1] * self.centre[1] + rim + max(n[2] * self.bottom, n[2] * self.top)
-
 
 def point(p: Vec3) -> Cylinder:
     """Return a point as a solid of size zero."""
@@ -59,10 +54,6 @@ class Prism(NamedTuple):
             if distance < best_distance:
                 best, best_distance = q, distance
         return (best[0], best[1], z)
-
-    def support(self, n: Vec3) -> float:
-        """Return max of n.x over the solid."""
-        return max(n[0] * x + n[1] * y for x, y in self.points) + max(n[2] * self.bottom, n[2] * self.top)
 
 
 Solid = Cylinder | Prism

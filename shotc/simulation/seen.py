@@ -57,7 +57,6 @@ class TrackedTarget:
     name: str
     places: Array
     share: Array
-    fixes: list[PositionFix]
     tracker: Tracker
     chances: Sequence[np.random.Generator]
     waiting: list[tuple[float, int, Measurement]] = field(default_factory=list)
@@ -110,7 +109,7 @@ def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTar
     models = (replace(walk, bias=sqrt(2.0) * gps.bias) for walk in WALKS)
     tracker = Tracker.beginning(0.0, measured[0], velocity, *models)
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
-    out = TrackedTarget(name, places, framed.share, fixes, tracker, pictures)
+    out = TrackedTarget(name, places, framed.share, tracker, pictures)
     for fix in fixes[1:]:
         heappush(out.waiting, (fix.time + gps.delay, next(out.numbers), fix))
     return out

@@ -59,14 +59,12 @@ class SampledFlight:
 
     time : (n,), seconds
     subject : watched point in W at each sample, metres, (n, 3)
-    start_yaw : body yaw on the pad before the flight, rad
     """
 
     time: Array
     poses: Poses
     subject: Array
     stretches: tuple[SampleRange, ...]
-    start_yaw: float
 
 
 def poses_at(flight: DroneTrajectory, time: Array) -> Poses:
@@ -89,8 +87,7 @@ def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
         first += count
     time = np.concatenate(times)
     poses = poses_at(flight, time)
-    start_yaw = float(flight.curve(flight.curve.start)[BODY_YAW])
-    return SampledFlight(time, poses, subject_at(mission, flight, time, poses), tuple(stretches), start_yaw)
+    return SampledFlight(time, poses, subject_at(mission, flight, time, poses), tuple(stretches))
 
 
 def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: Poses) -> Array:

@@ -61,25 +61,20 @@ def points_of(tracks: Sequence[RecordedTrack], times: Array) -> Array:
     return np.stack([track.curve(times) for track in tracks])
 
 
-def bound(tracks: Sequence[RecordedTrack], times: Array, breaks: Array, coef: Array) -> tuple[float, int]:
-    """Return the largest distance between a flight and its tracks, proved, m, and the drone's row.
+def bound(tracks: Sequence[RecordedTrack], times: Array, breaks: Array, coef: Array) -> float:
+    """Return the largest distance between a flight and its tracks, proved, m.
 
     times : of the file, for its control points, shape (K,)
     breaks, coef : of the flight, shapes (P + 1,) and (n, K, 3)
     """
     if np.allclose(times[DEGREE:-DEGREE], breaks[2:-2], rtol=0.0, atol=TINY_S):
         own = pieces(breaks, coef)
-        off = np.array(
-            [_off(track.curve, Piecewise(breaks, row)) for track, row in zip(tracks, own, strict=True)]
-        )
-        worst = int(np.argmax(off))
-        return float(off[worst]), worst
+        return max(_off(track.curve, Piecewise(breaks, row)) for track, row in zip(tracks, own, strict=True))
     off = _from_polyline(times, breaks, coef)
     off = off + np.array(
         [_off_track(track.curve, times, row) for track, row in zip(tracks, coef, strict=True)]
     )
-    worst = int(np.argmax(off))
-    return float(off[worst]), worst
+    return float(off.max())
 
 
 def _off(curve: Piecewise, flown: Piecewise) -> float:

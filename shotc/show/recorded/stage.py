@@ -85,7 +85,6 @@ class Staged(NamedTuple):
     order : the tracks in the order of its rows
     part : the flown part by the file's clock, s
     off : largest distance from the tracks, proved, m
-    whose : its row
     need : the drone that needed more time, None if none did
     at : the time of that in the file, s
     longer : how much longer the flight is than the file, s
@@ -96,7 +95,6 @@ class Staged(NamedTuple):
     order: NDArray[np.intp]
     part: tuple[float, float]
     off: float
-    whose: int
     need: Need | None
     at: float
     longer: float
@@ -157,7 +155,7 @@ def _staged(
         _over(coef[:, fall:], ends, -1)
     coef = np.round(coef, CONTROL_DECIMALS)
     clock = clocked(coef, step, requirements.limits, tracks.rounding)
-    off, whose = bound(tracks.tracks, times, clock.breaks, coef)
+    off = bound(tracks.tracks, times, clock.breaks, coef)
     flight = Recorded(
         display,
         clock.breaks,
@@ -169,7 +167,7 @@ def _staged(
     )
     longer = round(float(clock.breaks[-1]) - step * count, 6)
     at = 0.0 if clock.need is None else float(times[clock.need.piece + 1])
-    return Staged(flight, order, (start, end), off, whose, clock.need, at, longer, tuple(leaned))
+    return Staged(flight, order, (start, end), off, clock.need, at, longer, tuple(leaned))
 
 
 def _order(tracks: RecordedTracks, requirements: FitRequirements) -> tuple[NDArray[np.intp], bool]:

@@ -68,12 +68,3 @@ def test_the_nearest_point_of_a_prism_is_on_the_side_that_is_nearest() -> None:
     assert wedge.closest((2.0, -5.0, 2.0)) == pytest.approx((2.0, 0.0, 2.0))
     assert wedge.closest((7.0, 7.0, 0.0)) == pytest.approx((3.0, 4.0, 1.0))
     assert wedge.closest((-1.0, 9.0, 2.0)) == pytest.approx((0.0, 8.0, 2.0))
-
-
-@pytest.mark.parametrize(
-    "solid", [Cylinder((1.0, -2.0), 5.0, 2.0, 7.0), Prism(((0.0, 0.0), (6.0, 0.0), (0.0, 8.0)), 2.0, 7.0)]
-)
-def test_a_solid_reaches_as_far_up_and_down_as_its_top_and_bottom(solid: Cylinder | Prism) -> None:
-    assert solid.support((1.0, 0.0, 0.0)) + solid.bottom == 6.0 + 2.0
-    assert solid.support((0.0, 0.0, 1.0)) == 7.0
-    assert solid.support((0.0, 0.0, -1.0)) == -2.0

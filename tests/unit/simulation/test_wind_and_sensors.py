@@ -92,7 +92,7 @@ def test_a_position_is_known_at_the_step_on_which_it_arrives():
     stamp = 0.2 + 0.1 - 0.1  # the sum with its delay is a little more than 0.3
     fix = PositionFix(stamp, np.ones((1, 3)), 0.02, np.ones(1, dtype=bool))
     tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), MotionModel(1.0))
-    seen = TrackedTarget("walker", np.zeros((1, 1, 3)), np.zeros(1), [fix], tracker, chances(1))
+    seen = TrackedTarget("walker", np.zeros((1, 1, 3)), np.zeros(1), tracker, chances(1))
     heappush(seen.waiting, (stamp + 0.1, 0, fix))
     assert stamp + 0.1 > 0.3
     seen.learn(0.3)

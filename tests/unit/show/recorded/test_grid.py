@@ -43,7 +43,7 @@ def test_the_bound_holds_and_is_near(seed: int, stretched: bool, rests: bool) ->
         widths = widths * np.exp(np.cumsum(rng.normal(0.0, 0.15, len(widths))).clip(-1, 1.5))
     breaks = np.concatenate([[0.0], np.cumsum(widths)])
     coef = points_of([track], times)
-    found, _ = bound([track], times, breaks, coef)
+    found = bound([track], times, breaks, coef)
     if rests and not stretched:
         at = np.linspace(0.0, breaks[-1], 20_000)
         real = float(np.linalg.norm(places(breaks, coef, at)[0] - track.curve(at), axis=1).max())
