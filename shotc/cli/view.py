@@ -37,7 +37,7 @@ def view(what: What) -> None:
     if fault is not None:
         console.report([fault], {})
         raise typer.Exit(console.EXIT_REJECTED)
-    plan = proved(Path(what)) if _is_plan(what) else _planned(what)
+    plan = proved(Path(what)) if (Path(what).is_dir() or what.lower().endswith(".json")) else _planned(what)
     emitted = emit_plan(plan, ["rerun"])
     recording = next((a for a in emitted.artifacts if a.name == "mission.rrd"), None)
     console.report(emitted.diagnostics, {})
@@ -50,10 +50,6 @@ def view(what: What) -> None:
     if status:
         console.report([_failed(status)], {})
         raise typer.Exit(console.EXIT_REJECTED)
-
-
-def _is_plan(what: str) -> bool:
-    return Path(what).is_dir() or what.lower().endswith(".json")
 
 
 def _planned(spec: str) -> VerifiedIR:

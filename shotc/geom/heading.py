@@ -54,7 +54,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
             break
         upper, middle = _bounds(motion)
         low, high = motion.velocity.low, motion.velocity.high
-        value = np.where(_speed(motion) > slow, middle, -np.inf)
+        value = np.where(norm(_middle(motion.velocity.ctrl)) > slow, middle, -np.inf)
         k = int(value.argmax())
         if value[k] > best:
             best, at = float(value[k]), float(0.5 * (low[k] + high[k]))
@@ -93,10 +93,6 @@ def _bounds(motion: _GroundMotion) -> tuple[Array, Array]:
     by_rate = np.abs(off) + 0.5 * (motion.velocity.high - motion.velocity.low) * fastest
     upper = np.where(ahead, np.minimum(by_ends, by_rate), np.pi)
     return np.minimum(upper, np.pi), np.abs(off)
-
-
-def _speed(motion: _GroundMotion) -> Array:
-    return norm(_middle(motion.velocity.ctrl))
 
 
 def _turned(v: Array, course: Array) -> tuple[Array, Array]:

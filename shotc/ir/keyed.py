@@ -90,7 +90,7 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     ideal, duration = shot.ideal, shot.timing.duration
     assert ideal is not None
     assert duration is not None
-    arrive = _even(shot.keyframes, duration)
+    arrive = _by_length(shot.keyframes, duration, [1.0] * (len(shot.keyframes) - 1))
     for _ in range(TIMING_ROUNDS):
         lengths = [
             _distance(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1]))
@@ -218,10 +218,6 @@ def _distance(
     if a.beside is not None and b.beside is not None and a.beside.target == b.beside.target:
         leave = reach
     return dist(place_of(mission, a, leave), place_of(mission, b, reach))
-
-
-def _even(keyframes: tuple[Keyframe, ...], duration: float) -> tuple[float, ...]:
-    return _by_length(keyframes, duration, [1.0] * (len(keyframes) - 1))
 
 
 def _by_length(keyframes: tuple[Keyframe, ...], duration: float, distances: list[float]) -> tuple[float, ...]:

@@ -87,7 +87,7 @@ def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tup
                 why, needs = f"the refined path cannot keep {fault}", fault.least
                 if task.leg.duration is not None:
                     break
-                task = task._replace(leg=_in_its_time(subject))
+                task = task._replace(leg=replace(subject.leg, duration=leg_time(subject.drone, subject.leg)))
                 continue
             against = _against(path, moved, subject)
             if against is None and (plain is None or _near(subject, refined, plain[0])):
@@ -113,11 +113,6 @@ def _near(subject: ShotContext, refined: Refined, plain: Refined) -> bool:
     centres = [np.array(subject.mission.target(name).centre) for name in named]
     distances = np.min([np.linalg.norm(before - centre, axis=1) for centre in centres] or [np.inf], axis=0)
     return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * distances).all())
-
-
-def _in_its_time(subject: ShotContext) -> MovingLeg:
-    """Return the leg with its current duration as the duration that is asked for."""
-    return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 
 
 def _result(

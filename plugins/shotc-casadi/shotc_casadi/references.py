@@ -105,7 +105,7 @@ def references_at(subject: ShotContext, condition: AimCondition, s: Array) -> Re
     )
     x, i = progress_at(at, s)
     looked_at = (1 - x) * points[i] + x * points[i + 1]
-    aim = _towards(looked_at - _position(subject, s), turn)
+    aim = _towards(looked_at - np.asarray(subject.leg.curve(s)[:, :3]), turn)
     return replace(own, centre=looked_at, aim=aim, framed=np.ones(len(s)))
 
 
@@ -199,10 +199,6 @@ def _towards(d: Array, near: Array) -> Array:
     yaw = np.unwrap(np.arctan2(d[:, 1], d[:, 0]))
     yaw += 2 * np.pi * np.round((near[0, 0] - yaw[0]) / (2 * np.pi))
     return np.column_stack([yaw, np.arctan2(d[:, 2], np.hypot(d[:, 0], d[:, 1]))])
-
-
-def _position(subject: ShotContext, s: Array) -> Array:
-    return np.asarray(subject.leg.curve(s)[:, :3])
 
 
 def fields_of_view(subject: ShotContext, s: Array, q: Array | None = None) -> tuple[Array, Array]:

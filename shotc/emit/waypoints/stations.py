@@ -89,16 +89,12 @@ def _grouped(track: SampledFlight, metres: Array) -> tuple[list[list[SampleRange
     groups: list[list[SampleRange]] = [[]]
     gaps: list[StationInterval] = []
     for stretch in track.stretches:
-        if stretch.rest or _is_short(track, metres, stretch):
+        if stretch.rest or bool(metres[stretch.last] - metres[stretch.first] < SHORTEST_LEG_M):
             groups[-1].append(stretch)
         else:
             gaps.append(StationInterval(stretch.first, stretch.last, stretch.shot))
             groups.append([])
     return groups, gaps
-
-
-def _is_short(track: SampledFlight, metres: Array, stretch: SampleRange) -> bool:
-    return bool(metres[stretch.last] - metres[stretch.first] < SHORTEST_LEG_M)
 
 
 def _ends(

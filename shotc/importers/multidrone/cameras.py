@@ -92,7 +92,7 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         share = i / (len(poses) - 1)
         pan, tilt = (a + share * (b - a) for a, b in (pans, tilts))
         heading = 90.0 - degrees(course) - pan
-        if last is not None and not _sweeps(pans):
+        if last is not None and not (abs(pans[1] - pans[0]) >= 180.0):
             heading += 360.0 * round((last - heading) / 360.0)
         last = heading
         pitch = max(LOWEST_PITCH_DEG, min(HIGHEST_PITCH_DEG, tilt - LEVEL_TILT_DEG))
@@ -116,10 +116,6 @@ def _ends(params: dict[str, float], name: str, otherwise: float) -> tuple[float,
     start, end = params.get(f"{name}_s"), params.get(f"{name}_e")
     first = start if start is not None else end if end is not None else otherwise
     return first, end if end is not None else first
-
-
-def _sweeps(pans: tuple[float, float]) -> bool:
-    return abs(pans[1] - pans[0]) >= 180.0
 
 
 def _course(places: list[Place], i: int) -> float:

@@ -96,7 +96,7 @@ class SolvePathQp:
         If a drone finds no feasible flight beside those before it, it is planned before them, provided that
         all are feasible then.
         """
-        order = _by_need(ir)
+        order = _after_needs(ir, sorted(ir.mission.drones, key=lambda d: (d.priority, d.name)))
         planned = first = self._in_order(ir, order, ctx)
         moved = set[str]()
         while (stopped := planned.stopped) is not None and stopped.name not in moved:
@@ -157,11 +157,6 @@ def on_clock(ir: KeyframeIR) -> bool:
     moving = any(placed.shot.ideal is not None for placed in ir.shots)
     moving = moving or any(target.track is not None for target in ir.mission.targets)
     return moving or len({placed.shot.drone for placed in ir.shots}) > 1
-
-
-def _by_need(ir: KeyframeIR) -> list[Drone]:
-    """Return the drones in order of priority, each after those that its shots wait for."""
-    return _after_needs(ir, sorted(ir.mission.drones, key=lambda d: (d.priority, d.name)))
 
 
 def _earlier(ir: KeyframeIR, order: Sequence[Drone], drone: Drone) -> list[Drone]:

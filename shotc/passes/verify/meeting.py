@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.measures import distinct_measures, enough
-from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
@@ -74,13 +74,9 @@ def _labels(
         if phase is None:
             yield mission.origins.value((*drone.path, "home"), f"`{track.drone}` stands here")
         else:
-            yield mission.origins.key(_shot(mission, phase).path, f"`{track.drone}` films this")
+            yield mission.origins.key(mission.shot(phase.shot).path, f"`{track.drone}` films this")
     if PATH in mission.origins.values:
         yield mission.origins.value(PATH, f"at least {least}")
-
-
-def _shot(mission: MissionIR, phase: Phase) -> Shot:
-    return mission.shot(phase.shot)
 
 
 def _notes(ir: TrajectoryIR, claim: Claim, pair: tuple[DroneTrajectory, ...]) -> Iterator[str]:

@@ -125,7 +125,7 @@ class _Sky:
     def _does(self, change: FlightChange, pair: tuple[int, int]) -> bool:
         """Return whether a changed fleet meets no other until the end of the change."""
         fleet, flight = self.directors[change.of].fleet, change.flight
-        if _airborne(flight) > fleet.endurance:
+        if float(flight.breaks[-1] - flight.breaks[windows(flight.coef)[0].first]) > fleet.endurance:
             return False
         others = sorted((k for k in range(len(self.flights)) if k != change.of), key=lambda k: k not in pair)
         for k in others:
@@ -213,10 +213,6 @@ def _marks(flight: FleetTrajectory) -> Array:
     moving = windows(flight.coef)
     at = [0, *stops(flight.coef), *(w.first for w in moving), *(w.last for w in moving), -1]
     return np.asarray(flight.breaks[at])
-
-
-def _airborne(flight: FleetTrajectory) -> float:
-    return float(flight.breaks[-1] - flight.breaks[windows(flight.coef)[0].first])
 
 
 def _filled(

@@ -60,14 +60,10 @@ def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Deco
         curve = bounded_cubic(task, cost, choices[k])
         if curve is None:
             continue
-        spent = cost.of(choices[k], _slopes(curve))
+        spent = cost.of(choices[k], np.asarray(curve.derivative()(curve.breaks)[:, 0]))
         if best is None or spent < best[0] * (1 - SAME_ENERGY_SHARE):
             best = (spent, choices[k], curve)
     complete = certain and not decoded.capped
     if best is None:
         return Headings(Status.INFEASIBLE, choices[0], None, decoded.nodes, complete)
     return Headings(Status.SOLVED, best[1], best[2], decoded.nodes, complete)
-
-
-def _slopes(curve: Piecewise) -> Array:
-    return np.asarray(curve.derivative()(curve.breaks)[:, 0])

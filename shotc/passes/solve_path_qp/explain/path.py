@@ -54,7 +54,7 @@ def failure(
         case Stuck():
             return _stuck(mission, drone, space, shot, what)
         case AngleFailure():
-            return _angles(mission, drone, shot, what)
+            return _solver_failed(mission, drone, shot, f"{what.what} angles ({what.status})")
         case _:
             assert_never(what)
 
@@ -269,10 +269,6 @@ def _stuck(
         remedy(mission, drone, space, shot, what)
         or "lead the way through wider places: move the end points, or what stands between them",
     )
-
-
-def _angles(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: AngleFailure) -> Diagnostic:
-    return _solver_failed(mission, drone, shot, f"{what.what} angles ({what.status})")
 
 
 def _solver_failed(mission: MissionIR, drone: Drone, shot: PlacedShot | None, what: str) -> Diagnostic:

@@ -55,13 +55,9 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     return canvas.png()
 
 
-def _rows(board: Board) -> int:
-    return ceil(len(board.moments) / COLUMNS)
-
-
 def _height(board: Board) -> float:
     """Return the height of a display's part of the page, inches."""
-    return BAND_IN + max(_rows(board) * (HEIGHT + CAPTION_IN), LEAST_MAP_IN) + 0.22
+    return BAND_IN + max(ceil(len(board.moments) / COLUMNS) * (HEIGHT + CAPTION_IN), LEAST_MAP_IN) + 0.22
 
 
 def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:

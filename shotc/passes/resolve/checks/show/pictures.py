@@ -149,7 +149,7 @@ def _inside(
     labels = (centre_label(mission, picture), mission.origins.key(zone.owner.path, "the zone"))
     word = word_of(picture)
     # Below the ground clearance it is too low anyway, which is reported once.
-    low = max(lowest(shape), _floor(mission, fleet, shape))
+    low = max(lowest(shape), min(mission.lowest(ball.centre, fleet.radius) for ball in shape))
     high = highest(shape)
     bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
     if low < bottom - ROUNDING_M or high > top + ROUNDING_M:
@@ -175,11 +175,6 @@ def _inside(
     message = f"this {word} reaches out of keep-in zone `{zone.owner.name}`"
     help_ = _cleared(mission, fleet, picture, shape) or "move it inside"
     yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
-
-
-def _floor(mission: MissionIR, fleet: Fleet, shape: tuple[Ball, ...]) -> float:
-    """Return the least z that a drone may have anywhere in a shape."""
-    return min(mission.lowest(ball.centre, fleet.radius) for ball in shape)
 
 
 def _high_enough(mission: MissionIR, fleet: Fleet, shape: tuple[Ball, ...]) -> bool:
