@@ -26,7 +26,7 @@ It may do so for a promise about its subjects, or because something hides them.
 UNWATCHED = 10.0
 """Distance that counts for a shot without a named target, metres."""
 
-LONGEST_WAIT = 10.0
+LONGEST_WAIT_S = 10.0
 """Longest wait with a transfer for a preference, if it delays the next leg, seconds."""
 
 GIVEN_UP, SHARE, SUFFICES = "preference_given_up", "preference_share", "preference_suffices"

@@ -27,7 +27,7 @@ from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS, PITCH, YAW
 
 STIFF_WEIGHT = 1e-12  # weight of smoothness against the nodes, both dimensionless by the spacing of keyframes
-NODES_A_PIECE = 1.5
+NODES_PER_PIECE = 1.5
 
 
 class NoFit(Exception):
@@ -99,7 +99,7 @@ def _zooms(states: Array, given: Array) -> bool:
 def _breaks(convex: Array, stages: Stages) -> Array:
     """Return the convex path's breaks; each piece is subdivided until it has few nodes."""
     nodes = np.histogram(stages.s, convex)[0]
-    parts = np.maximum(1, np.ceil(nodes / NODES_A_PIECE).astype(int))
+    parts = np.maximum(1, np.ceil(nodes / NODES_PER_PIECE).astype(int))
     pieces = [subdivide(convex[i : i + 2], int(n))[:-1] for i, n in enumerate(parts)]
     return np.append(np.concatenate(pieces), convex[-1])
 

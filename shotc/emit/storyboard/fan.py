@@ -44,7 +44,7 @@ INNERMOST_RING_M = 1e-3
 HAZE_RATIO = 20.0
 """Distance at which haze has taken half of the colour, over the height of the eye above ground."""
 
-FARTHEST_SCREEN = 50.0
+FARTHEST_HALF_FRAMES = 50.0
 """Half pictures from the middle at which positions are clipped, far outside the picture."""
 
 SAME_SLOPE = 1e-6
@@ -156,7 +156,7 @@ def _on_page(view: PictureRectangle, fan: Fan) -> Array:
     uv = np.stack(
         [right / (depth * view.camera.half_width), -down / (depth * view.camera.half_height)], axis=-1
     )
-    return view.place(np.clip(uv, -FARTHEST_SCREEN, FARTHEST_SCREEN))
+    return view.place(np.clip(uv, -FARTHEST_HALF_FRAMES, FARTHEST_HALF_FRAMES))
 
 
 def _faces(fan: Fan) -> Array:

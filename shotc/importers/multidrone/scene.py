@@ -19,7 +19,7 @@ SIZES = {
     "TARGET_RUNNER": (0.4, 1.8),
     "TARGET_MONUMENT": (3.0, 10.0),
 }
-USUAL = (1.0, 1.8)  # radius and height of a target of unknown type, metres
+USUAL_SIZE_M = (1.0, 1.8)  # radius and height of a target of unknown type, metres
 HOMES_APART_M = 6.0  # distance between two homes, metres
 HOMES_AWAY_M = 20.0  # distance from the first target's start to the homes, metres
 
@@ -42,7 +42,7 @@ def targets(films: Rows[FilmedAction], root: Node, frame: CoordinateFrame, notes
     yield "targets:"
     sort = next((node for types in root.all("targetTypes") for node in types.all("targetType")), None)
     name = "" if sort is None else sort.value("name")
-    radius, height = SIZES.get(name, USUAL)
+    radius, height = SIZES.get(name, USUAL_SIZE_M)
     message = "the file does not say how large its targets are"
     if name not in SIZES:
         message += ", nor what they are" if sort is None else f", and `{plain(name, 30)}` is not known"

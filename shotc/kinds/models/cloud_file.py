@@ -16,7 +16,7 @@ NOISE = (7, 18)
 """LAS classes of low and high noise: points without a real object."""
 NONE = "?"
 """Replaces the separator of a line that is no row."""
-RECORD, EXTENDED = 54, 60
+RECORD_BYTES, EXTENDED_BYTES = 54, 60
 """Bytes of the header of a variable length record, and of an extended one (LAS 1.4)."""
 EXTENDED_END_BYTES = 247
 """End of the number of extended records in the header of LAS 1.4, byte offset."""
@@ -102,9 +102,9 @@ def _promised(data: bytes) -> int:
         return int.from_bytes(data[at : at + size], "little")
 
     header, points = number(94, 2), number(96, 4)
-    least = [points, header + RECORD * number(100, 4)]
+    least = [points, header + RECORD_BYTES * number(100, 4)]
     if data[25:26] >= b"\x04" and header >= EXTENDED_END_BYTES:
-        least.append(header + EXTENDED * number(EXTENDED_END_BYTES - 4, 4))
+        least.append(header + EXTENDED_BYTES * number(EXTENDED_END_BYTES - 4, 4))
     if data[104:105] >= COMPRESSED:
         table = number(points, 8)
         table = number(len(data) - 8, 8) if table == NO_TABLE else table

@@ -30,7 +30,7 @@ behind it.
 MOTION_SHARE = 1 / 384
 """Share of the picture's width that a subject may move during the exposure: 10 pixels of 3840."""
 
-STOPS = (1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32, 45, 64)
+F_NUMBERS = (1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32, 45, 64)
 
 
 def most_motion(optics: Optics) -> float:
@@ -116,7 +116,7 @@ def _stop_down(each: Claim, optics: Optics, drone: str) -> str:
     """
     assert optics.aperture is not None
     needed = optics.aperture * each.worst / each.limit
-    stop = next((stop for stop in STOPS if stop >= needed * (1 + 1e-9)), MOST_F)
+    stop = next((stop for stop in F_NUMBERS if stop >= needed * (1 + 1e-9)), MOST_F)
     if needed > MOST_F:
         return "film it from farther away or with a shorter lens, or "
     return f"write `camera: {{aperture: f/{stop:g}}}` of `{drone}`, or "

@@ -29,7 +29,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner
 from shotc.ir.path import MovingLeg, PathLeg
 from shotc.ir.phases import PhaseName
-from shotc.ir.preference import LONGEST_WAIT
+from shotc.ir.preference import LONGEST_WAIT_S
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.visibility import seen_on
@@ -175,7 +175,7 @@ def _transfer_slack(transfer: Transfer, waits: float) -> float:
 
     A penalty is subtracted where the next leg would wait longer for it than a preference may cost.
     """
-    return transfer.kept if waits <= LONGEST_WAIT else min(transfer.kept, 0.0) - WAITED_M
+    return transfer.kept if waits <= LONGEST_WAIT_S else min(transfer.kept, 0.0) - WAITED_M
 
 
 def _unseen(others: OtherVehicles, transfer: Transfer, waits: float) -> float:
@@ -187,7 +187,7 @@ def _unseen(others: OtherVehicles, transfer: Transfer, waits: float) -> float:
     """
     if not others.visibility.preferred:
         return transfer.unseen
-    return 0.0 if transfer.unseen >= 0.0 and waits <= LONGEST_WAIT else -inf
+    return 0.0 if transfer.unseen >= 0.0 and waits <= LONGEST_WAIT_S else -inf
 
 
 def _tries(

@@ -21,7 +21,7 @@ MOST_BISECTIONS = 10
 """Bisection steps of the search for the widest lattice with enough points."""
 MOST_POINTS = 4_000_000
 """Most points of a lattice around a shape; a shape that needs more is too thin for a lattice."""
-PHASES = (0.0, 0.5)
+PHASE_SHARES = (0.0, 0.5)
 """Shifts of a lattice along all axes, over its step, of which the one with most points is taken."""
 
 
@@ -80,7 +80,7 @@ def laid(mould: Mould, step: float) -> Array:
     if np.prod(np.ceil((high - low) / step) + 1.0) > MOST_POINTS:
         return np.zeros((0, dimensions))
     best, off = np.zeros((0, dimensions)), np.zeros(0)
-    for phase in PHASES:
+    for phase in PHASE_SHARES:
         shift = np.full(dimensions, phase * step)
         places = lattice(low - shift, high, step, mould.upright)
         distances = mould.shape.query(places, distance_upper_bound=mould.slack)[0]

@@ -14,7 +14,7 @@ from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFligh
 NARROW_SHARE = 0.3  # least width of a letter over the height of a capital
 SMALL_LETTER_SHARE = 0.5  # least height of small letters over that of capitals
 RING_BALLS = 24  # balls in a ring
-ALONG = (-1.0, -0.5, 0.0, 0.5, 1.0)
+ALONG_SHARES = (-1.0, -0.5, 0.0, 0.5, 1.0)
 
 
 class Ball(NamedTuple):
@@ -94,7 +94,7 @@ def depth_in(picture: Picture, p: Vec3, thick: float) -> float:
 def _of_box(source: Box) -> Iterator[Ball]:
     """Yield points of a box, its corners included."""
     c, s = cos(source.heading), sin(source.heading)
-    for i, j, k in product(ALONG, repeat=3):
+    for i, j, k in product(ALONG_SHARES, repeat=3):
         x, y, z = (share * side / 2 for share, side in zip((i, j, k), source.size, strict=True))
         at = source.centre
         yield Ball((at[0] + x * c + y * s, at[1] - x * s + y * c, at[2] + z), 0.0)
@@ -135,14 +135,14 @@ def _from_ring(source: Torus, p: Vec3) -> float:
 
 def _upright(centre: Vec3, height: float) -> Iterator[Ball]:
     x, y, z = centre
-    yield from (Ball((x, y, z + share * height / 2), 0.0) for share in ALONG)
+    yield from (Ball((x, y, z + share * height / 2), 0.0) for share in ALONG_SHARES)
 
 
 def _of_text(source: Lettering) -> Iterator[Ball]:
     """Yield points of the smallest extent of a text: narrow letters, as high as the lowest."""
     half, c, s = _width(source) / 2, cos(source.heading), sin(source.heading)
     x, y, z = source.centre
-    for i, k in product(ALONG, repeat=2):
+    for i, k in product(ALONG_SHARES, repeat=2):
         yield Ball((x + i * half * c, y - i * half * s, z + k * _tall(source) / 2), 0.0)
 
 

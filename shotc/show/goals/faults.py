@@ -22,7 +22,7 @@ from shotc.show.goals.spaced import SpacingTask
 from shotc.show.goals.surfaces import OverTerrain, Standing
 from shotc.show.labels import word_of
 
-BETWEEN = (0.0, 0.25, 0.5, 0.75)
+BETWEEN_SHARES = (0.0, 0.25, 0.5, 0.75)
 """Shares of the path from a picture's middle to its goals, at which places inside it are examined."""
 FEWEST_DRONES = 8
 """Least drones that show a solid: those at the corners of a box."""
@@ -195,7 +195,7 @@ class _Obstructed(NamedTuple):
 def _whole(goals: Array) -> Array:
     """Return goals (n, 3) with places between them: towards the middle, and between neighbours."""
     middle = goals.mean(axis=0)
-    rays = [middle + share * (goals - middle) for share in BETWEEN]
+    rays = [middle + share * (goals - middle) for share in BETWEEN_SHARES]
     rows = [goals[np.lexsort((goals[:, (k + 1) % 3], goals[:, k]))] for k in range(3)]
     return np.concatenate([goals, *rays, *(0.5 * (row[1:] + row[:-1]) for row in rows)])
 

@@ -18,7 +18,7 @@ Fits = Callable[[MissionIR, Shot], bool]
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 """Shares of a size, a field of view or a place on screen that are tried, the nearest first."""
 TURNS = tuple(sign * d for d in range(10, 181, 10) for sign in (1, -1))  # degrees from the written azimuth
-RISES = tuple(range(5, 86, 5))  # degrees of elevation
+RISES_DEG = tuple(range(5, 86, 5))  # degrees of elevation
 LARGEST_SIZE = 1.0
 """The largest size that a mission writes as a number; only a name asks for a cropped target."""
 
@@ -101,7 +101,7 @@ def for_elevation(
     azimuth, elevation = subject.view or (None, None)
     written = (*subject.path[:-1], "view") in mission.origins.values
     lowest = round(max(least, -90.0 if elevation is None else degrees(elevation) + 1.0))
-    for rise in sorted({lowest, *(r for r in RISES if r > lowest)}):
+    for rise in sorted({lowest, *(r for r in RISES_DEG if r > lowest)}):
         if rise < 90 and fits(mission, _with(shot, subject, subject._replace(view=(azimuth, radians(rise))))):
             yield (
                 f"raise `elevation` to {rise} deg" if written else f"write `view: {{elevation: {rise} deg}}`"

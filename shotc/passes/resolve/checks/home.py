@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR
 from shotc.planning.clearances import NUDGE_M, ROUNDING_M, Clearance, clearances_of, move, outward
 from shotc.rounding import at_least, nearer_than
 
-ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
+BEARINGS_DEG = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
 """Degrees from straight on at which a place around another home is searched, nearest first."""
 
 
@@ -75,7 +75,7 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
     least, (x, y, z) = mission.rules.separation, standing.home
     straight = atan2(moved.home[1] - y, moved.home[0] - x)
     reach = sqrt(max(0.0, least**2 - (moved.home[2] - z) ** 2)) + NUDGE_M
-    for turn in ROUND:
+    for turn in BEARINGS_DEG:
         angle = straight + radians(turn)
         place = outward(standing.home, (x + reach * cos(angle), y + reach * sin(angle), z))
         place = (place[0], place[1], moved.home[2])

@@ -24,8 +24,14 @@ from shotc.rounding import down, up
 WINDOW_S = 2.0  # seconds over which the mean speed is measured
 IDEAL_SAMPLES = 200  # samples of an ideal
 SPAN_HALVINGS = 7  # bisection steps between the nearest distance and the written one
-LATE = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds of candidate starts after the earliest one
-MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # factors of the duration that is sufficient beside a standing target
+LATER_S = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds of candidate starts after the earliest one
+LONGER_RATIOS = (
+    1.0,
+    1.05,
+    1.2,
+    1.5,
+    2.0,
+)  # factors of the duration that is sufficient beside a standing target
 SPEED_ROUNDING_SHARE = 1e-6  # relative tolerance of a speed
 
 LEVEL = ("distance", "radius", "offset")
@@ -117,7 +123,7 @@ def _starts(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
     if shot.timing.start is not None or (known is not None and ideal is not None and ideal.framed):
         return (first,)  # the ideal of a framing is that of its earliest start
     if known is not None:
-        return tuple(first + late for late in LATE)
+        return tuple(first + late for late in LATER_S)
     return (first,) if _is_even(mission, shot) else ()
 
 
@@ -204,7 +210,7 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
         return
     duration, start = shot.timing.duration or 0.0, first_start(mission, shot)
     track_end = min((track.until for track in _tracks(mission, shot)), default=inf)
-    for more in MORE:
+    for more in LONGER_RATIOS:
         seconds = up(duration * share * more, 1)
         longer = shot._replace(timing=shot.timing._replace(duration=seconds))
         if start + seconds <= track_end and _keeps_up(
@@ -219,7 +225,7 @@ def _less_at_once(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]
     if not any(s.setpoints for s in shot.subjects):
         return
     start, limit = first_start(mission, shot), mission.drone(shot.drone).limits.speed
-    for more in MORE:
+    for more in LONGER_RATIOS:
         longer = _stretched(shot, share * more)
         ends = start + (longer.timing.duration or 0.0)
         known = all(ends <= t.until for t in _tracks(mission, shot))

@@ -18,7 +18,7 @@ from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
-from shotc.passes.resolve.checks.home import ROUND, stands_free
+from shotc.passes.resolve.checks.home import BEARINGS_DEG, stands_free
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
@@ -98,7 +98,7 @@ def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
     reach = target.radius + wide + BESIDE_M
     x, y, z = drone.home
     for rings in RINGS:
-        for turn in ROUND:
+        for turn in BEARINGS_DEG:
             angle = radians(turn)
             place = (x + rings * reach * cos(angle), y + rings * reach * sin(angle), z)
             there = drone._replace(home=outward(drone.home, place))

@@ -36,7 +36,7 @@ COARSE_PX = 5
 """Side of the pixel blocks on which the bloom is computed."""
 PALETTE_FRAMES = 12
 """Frames from which the palette is chosen."""
-BRIGHT, SKY_COLORS = 40, 40
+BRIGHT_LEVEL, SKY_COLORS = 40, 40
 """Level from which a pixel counts as a light, and palette colours of all other pixels."""
 DIM_LEVEL = 170
 """Grey of the time stamp."""
@@ -158,7 +158,7 @@ def _palette(pictures: list[Image.Image]) -> Image.Image:
     """
     chosen = pictures[:: max(1, len(pictures) // PALETTE_FRAMES)]
     pixels = np.concatenate([np.asarray(picture).reshape(-1, 3) for picture in chosen])
-    bright = pixels.max(axis=1) >= BRIGHT
+    bright = pixels.max(axis=1) >= BRIGHT_LEVEL
     parts = [_colors(pixels[~bright], SKY_COLORS), _colors(pixels[bright], 256 - SKY_COLORS)]
     palette = Image.new("P", (1, 1))
     palette.putpalette([level for colors in parts for level in colors])

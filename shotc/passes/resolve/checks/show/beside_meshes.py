@@ -28,7 +28,7 @@ from shotc.rounding import at_least
 from shotc.show.geom.shape import Ball, balls
 from shotc.show.labels import centre_label, pads_path, word_of
 
-PAD = 1.5
+PAD_RADII = 1.5
 """Times the body's radius over its pad from which nothing may come into it: below is what it stands on."""
 MOVES_M = tuple(range(1, 61))
 """Metres by which a layout or a picture is moved to be free."""
@@ -60,7 +60,7 @@ def _over_pads(fleet: Fleet, mesh: ObstacleMesh) -> _Over:
     pads, body = np.array(fleet.pads), fleet.radius + mesh.spacing
     tops = take_off_of(fleet)
     rise = np.array([tops.top(i) for i in range(len(pads))])
-    foot = np.minimum(PAD * fleet.radius + mesh.spacing, rise)
+    foot = np.minimum(PAD_RADII * fleet.radius + mesh.spacing, rise)
     low, high = pads.copy(), pads.copy()
     low[:, 2] += foot
     high[:, 2] += rise
