@@ -85,7 +85,7 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/show/solvers/own_heights.py",
-        "found[:FIXED_POINTS], found[-FIXED_POINTS:] = ctrl[0], ctrl[-1]",
+        "moved[:FIXED_POINTS], moved[-FIXED_POINTS:] = ctrl[0], ctrl[-1]",
         "0  ->  1",
         "the first three control points are equal, for rest",
     ),
@@ -233,7 +233,7 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/solvers/headings/virtual.py",
-        "NEAREST, FARTHEST = 0.5, 4.0  # radii of inner keyframes",
+        "NEAREST_RADIUS, FARTHEST_RADIUS = 0.5, 4.0  # radii of inner keyframes",
         "4.0  ->  5.0",
         "a range in which a radius is searched for; the heading does not depend on the scale, and is checked",
     ),
@@ -289,14 +289,14 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/show/geom/centroids.py",
-        "if len(costs) > PATIENCE and costs[-1 - PATIENCE] - costs[-1] <= enough * costs[-1]:",
+        "and costs[-1 - STALLED_ITERATIONS] - costs[-1] <= enough * costs[-1]",
         "1  ->  2",
         "a share of the cost before the last, which is hardly larger",
         2,
     ),
     Equivalent(
         "shotc/show/geom/shape.py",
-        "yield from (Ball((x, y, z + share * height / 2), 0.0) for share in ALONG)",
+        "yield from (Ball((x, y, z + share * height / 2), 0.0) for share in ALONG_SHARES)",
         "+  ->  -",
         "the same points in the other order: shares are symmetrical",
     ),

@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shotc.solvers.retiming_socp import Iterate, NormLimit, _Model, _SpeedShape, cell_times, start_from, triangular
+from shotc.solvers.retiming_socp import (
+    Iterate,
+    NormLimit,
+    _Model,
+    _SpeedShape,
+    cell_times,
+    start_from,
+    triangular,
+)
 
 
 class Motion:
