@@ -147,16 +147,16 @@ class FramedScene:
         shares = hidden_by_surfaces(self.mission, subject.target, eyes)
         for i, (t, eye) in enumerate(eyes):
             before = standing_before(self.mission, subject.target, eye, t)
-            solids = sum(w for w, hidden in zip(weights, before, strict=True) if hidden)
+            solids = sum(w for w, obstacle in zip(weights, before, strict=True) if obstacle is not None)
             shares[i] = max(solids, shares[i])
         return shares
 
     def _stands_before(self, eye: tuple[float, Vec3]) -> bool:
         """Return whether a solid is before the middle or a side of a subject."""
         return any(
-            hidden
+            occluder is not None
             for s in self.shot.subjects
-            for hidden in standing_before(self.mission, s.target, eye[1], eye[0])
+            for occluder in standing_before(self.mission, s.target, eye[1], eye[0])
         )
 
     def _by_surfaces(self, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:

@@ -70,6 +70,19 @@ def _kept_solids(mission: MissionIR, drone: Drone, t: float) -> Iterator[tuple[O
         yield target_owner(target), KeptSolid(target.kept_clear_at(t), False, need)
 
 
+def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
+    """Return the name of an occluder between a camera and a target's middle or one of its sides, or None.
+
+    Terrain, scenes and buildings count if they hide any of the points of ``hidden_by_surfaces``.
+    """
+    solid = next(
+        (occluder for occluder in standing_before(mission, name, eye, t) if occluder is not None), None
+    )
+    if solid is not None:
+        return solid
+    return next((by for by, shares in _by_surfaces(mission, name, ((t, eye),)) if any(shares)), None)
+
+
 def hidden_by_surfaces(mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
     """Return the share of a target that terrain, scenes and buildings hide, for each time and place.
 
@@ -77,17 +90,24 @@ def hidden_by_surfaces(mission: MissionIR, name: str, eyes: Sequence[tuple[float
     planning.
     """
     most = [0.0] * len(eyes)
-    if not (mission.meshes or mission.terrain):
-        return most
-    from shotc.ir.hiding_surfaces import shares_hidden_by
-
-    for shares in shares_hidden_by(mission, name, eyes):
+    for _, shares in _by_surfaces(mission, name, eyes):
         most = list(map(max, most, shares))
     return most
 
 
-def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[bool]:
-    """Yield whether a solid is before a target's middle, one side and the other side.
+def _by_surfaces(
+    mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]
+) -> Iterator[tuple[str, Sequence[float]]]:
+    """Yield the surfaces that may hide a target, with sort and name, and the hidden share from each place."""
+    if not (mission.meshes or mission.terrain):
+        return
+    from shotc.ir.hiding_surfaces import shares_hidden_by
+
+    yield from shares_hidden_by(mission, name, eyes)
+
+
+def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
+    """Yield the name of the solid, or None, before a target's middle, one side and the other side.
 
     A target that overlaps or touches this one is a part of the same thing and hides nothing of it.
     """
@@ -100,21 +120,21 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     offset = (across[0] * width, across[1] * width)
     points = [(x, y, z), (x + offset[0], y + offset[1], z), (x - offset[0], y - offset[1], z)]
     for p in points:
-        yield any(crosses(solid, eye, p) for solid in solids)
+        yield next((n for n, solid in solids if crosses(solid, eye, p)), None)
 
 
 def occluders_of(mission: MissionIR, name: str, t: float) -> tuple[Solid, ...]:
     """Return the convex parts of the solids that may hide a target at time t."""
     solids = _occluding(mission, mission.target(name), t)
-    return tuple(part for solid in solids for part in convex_parts(solid))
+    return tuple(part for _, solid in solids for part in convex_parts(solid))
 
 
-def _occluding(mission: MissionIR, target: Target, t: float) -> Iterator[Solid]:
-    """Yield the solids that may hide a target at time t."""
-    yield from (zone.solid for zone in mission.opaque_zones)
+def _occluding(mission: MissionIR, target: Target, t: float) -> Iterator[tuple[str, Solid]]:
+    """Yield the solids that may hide a target at time t, with their names."""
+    yield from ((zone.name, zone.solid) for zone in mission.opaque_zones)
     one = mission.one_with(target.name)
     others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))
-    yield from (o.solid_at(t) for o in others)
+    yield from ((o.name, o.solid_at(t)) for o in others)
 
 
 def _parts_of_one(a: Target, b: Target, t: float) -> bool:

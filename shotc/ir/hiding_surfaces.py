@@ -102,15 +102,15 @@ def share_behind(solids: Sequence[Solid], eyes: Array, centres: Array, radius: f
 
 def shares_hidden_by(
     mission: MissionIR, target: str, eyes: Sequence[tuple[float, Vec3]]
-) -> Iterator[list[float]]:
-    """Yield the shares of a target that each surface hides.
+) -> Iterator[tuple[str, list[float]]]:
+    """Yield the surfaces that may hide a target, with sort and name, and the share that each hides.
 
     eyes : mission times, seconds, and the camera's positions then, metres of W; there is a share for each
     """
     of = mission.target(target)
     places, centres = np.array([eye for _, eye in eyes]), np.array([of.at(t) for t, _ in eyes])
-    for _, surface in surfaces_before(mission, target):
-        yield share_hidden(surface, places, centres, of.radius, of.height).tolist()
+    for name, surface in surfaces_before(mission, target):
+        yield name, share_hidden(surface, places, centres, of.radius, of.height).tolist()
 
 
 @lru_cache(maxsize=16)

@@ -10,11 +10,10 @@ import pytest
 from shotc.geom.surface.ground import ground_of
 from shotc.ir.framed import course_of
 from shotc.ir.framed_course import StartedFraming
-from shotc.ir.hidden import hidden_by_surfaces, lacks
+from shotc.ir.hidden import hidden_by_surfaces, hides, lacks
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import Terrain
 from tests.support.front_passes import clean
-from tests.support.hidden_from import hidden_from
 from tests.support.mesh_spaces import with_meshes
 from tests.support.scenes import house, turned
 from tests.support.surfaces import distances
@@ -134,8 +133,8 @@ def test_a_bearing_is_turned_until_no_hill_hides_the_subject():
     assert [str(owner) for owner, _ in lacks(hill, hill.drones[0], (0.0, -20.0, 15.0), 20.0)] == ["ground"]
 
 
-def test_a_house_hides_and_a_scene_without_room_is_named():
+def test_what_hides_and_what_lacks_room_is_named():
     beside = with_meshes(square(), turned(house(6.0, 2.0, 6.0, 7.0), 0.0, (0.0, -4.0)))
-    assert hidden_from(beside, "statue", (0.0, -12.0, 1.5), 20.0)
-    assert not hidden_from(beside, "statue", (-12.0, 0.0, 1.5), 20.0)
+    assert hides(beside, "statue", (0.0, -12.0, 1.5), 20.0) == "scene a.ply"
+    assert hides(beside, "statue", (-12.0, 0.0, 1.5), 20.0) is None
     assert [str(owner) for owner, _ in lacks(beside, beside.drones[0], (0.0, -6.0, 3.0), 20.0)] == ["scene"]

@@ -8,13 +8,13 @@ import pytest
 from shotc.geom.line_of_sight import crosses
 from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part
 from shotc.geom.track import Track
+from shotc.ir.hidden import hides
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders, others_of
 from shotc.ir.sampling import seen
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from tests.support.film_plans import orbit_mission
-from tests.support.hidden_from import hidden_from
 from tests.support.records import replace
 from tests.support.sight_plans import EYE, at, film, mission, still, through
 
@@ -74,7 +74,7 @@ def hides_the_other(of: MissionIR, name: str, eye: tuple[float, float, float]) -
     camera = film("eye", still(at(*eye)))
     sampled = seen(of, camera, name, TIMES).hidden
     named = [bool(hidden.any()) for _, hidden in hiders(of, (), name, camera.curve(TIMES)[:, :3], TIMES)]
-    assert named == [bool(sampled.all())] == [hidden_from(of, name, eye, 0.0)]
+    assert named == [bool(sampled.all())] == [hides(of, name, eye, 0.0) is not None]
     return named[0]
 
 
@@ -135,5 +135,5 @@ def test_parts_of_a_group_hide_nothing_of_it_or_of_each_other() -> None:
     for groups, names in (((), ["target front"]), ((both,), [])):
         of = replace(mission(), targets=(MAST, front), groups=groups)
         assert [name for name, hides in hiders(of, (), "mast", eyes, TIMES) if hides.any()] == names
-        assert hidden_from(of, "mast", tuple(map(float, EYE[:3])), 0.0) is not bool(groups)
+        assert (hides(of, "mast", tuple(map(float, EYE[:3])), 0.0) is None) is bool(groups)
     assert [name for name, hides in hiders(of, (), "both", eyes, TIMES) if hides.any()] == []

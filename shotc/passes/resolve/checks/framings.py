@@ -247,12 +247,6 @@ class _SeenAt(NamedTuple):
     appearance: SubjectAppearance
     required: RequiredView
 
-    @property
-    def size_ratio(self) -> float:
-        """Its size over the required one, which is given."""
-        assert self.required.size is not None
-        return self.appearance.size / self.required.size
-
 
 def _together(mission: MissionIR, course: StartedFraming, advise: bool) -> Iterator[Diagnostic]:
     """Yield what several subjects cannot have at once."""
@@ -358,7 +352,7 @@ def _apart(
             (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
             "film it in another shot, or take a wider lens",
         )
-    sized = [(entry.size_ratio, entry) for entry in seen if entry.required.size is not None]
+    sized = [(e.appearance.size / e.required.size, e) for e in seen if e.required.size is not None]
     if not sized:
         return None
     share, (t, small, needed) = min(sized, key=lambda pair: pair[0])
@@ -387,7 +381,7 @@ def _compromise(subject: Subject, seen: Sequence[_SeenAt]) -> list[str]:
     if worst.screen > OFF_PLACE_HALF_FRAMES and required.uv is not None:
         place = f"({required.uv[0]:.2f}, {required.uv[1]:.2f})"
         notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
-    sized = [(abs(entry.size_ratio - 1.0), entry) for entry in seen if entry.required.size]
+    sized = [(abs(e.appearance.size / e.required.size - 1.0), e) for e in seen if e.required.size]
     if sized:
         off, (t, worst, required) = max(sized, key=lambda pair: pair[0])
         if off > OFF_SIZE_SHARE and required.size:

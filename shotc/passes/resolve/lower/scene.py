@@ -140,7 +140,9 @@ class _PlacedScene(NamedTuple):
         middle, foot = corners.mean(axis=0), float(corners[:, 2].min())
         distance = float(np.linalg.norm(middle[:2]) - 0.5 * self.placed.metres * np.linalg.norm(high - low))
         if distance > FARTHEST_M:
-            message = f"the scene `{self.written.file}` is {distance / 1000:.1f} km away from the world's origin"
+            message = (
+                f"the scene `{self.written.file}` is {distance / 1000:.1f} km away from the world's origin"
+            )
             onto_origin = np.array(self.at) - [*middle[:2], foot]
             help_ = (
                 f"write where it stands: {_key(onto_origin)} puts it on the world's origin"

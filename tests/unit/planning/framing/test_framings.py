@@ -13,6 +13,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.geom.viewpoint import viewpoint
 from shotc.ir.framed import at_start, course_of
+from shotc.ir.hidden import hides
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.sampling import seen
@@ -23,7 +24,6 @@ from tests.support.compiled import compiled_text
 from tests.support.few import few
 from tests.support.framing_missions import claim, planned, text
 from tests.support.front_passes import clean, placed
-from tests.support.hidden_from import hidden_from
 from tests.support.remedies.apply import remedies
 
 pytestmark = pytest.mark.slow
@@ -87,8 +87,7 @@ def test_a_free_bearing_goes_round_what_hides_the_subject() -> None:
     def hidden(ir: KeyframeIR) -> bool:
         shot = ir.mission.shots[0]
         return any(
-            hidden_from(mission, "runner", ideal_place(mission, shot, 15.0, t), t)
-            for t in np.linspace(15, 23, 30)
+            hides(mission, "runner", ideal_place(mission, shot, 15.0, t), t) for t in np.linspace(15, 23, 30)
         )
 
     assert hidden(plain)
@@ -107,7 +106,7 @@ def test_two_subjects_are_seen_from_where_a_wall_does_not_hide_them() -> None:
     assert course.blocked == 0.0
     assert course_of(walled.mission, plain.mission.shots[0], 15.0).poses == course.poses
     for t, pose in zip(course.times, course.poses, strict=True):
-        assert all(not hidden_from(walled.mission, name, pose[:3], t) for name in ("runner", "rider"))
+        assert all(hides(walled.mission, name, pose[:3], t) is None for name in ("runner", "rider"))
 
 
 def test_what_a_course_has_found_is_not_searched_again() -> None:
