@@ -152,6 +152,8 @@ def _record(folder: Path, paths: Sequence[str], root: Path, options: Namespace) 
     chosen = ["-p", "tests.experiments.mutants.recording", *shlex.split(options.tests)]
     command = [sys.executable, "-m", "pytest", "-n", str(options.jobs), "--dist", "loadgroup", *chosen]
     subprocess.run(command, cwd=root, env=environment, check=False)
+    if not any(run.glob("*.json")):
+        raise RuntimeError(f"the run of the tests left no record in {run}")
 
 
 def _records(folder: Path, root: Path) -> Iterator[dict[str, Any]]:

@@ -123,7 +123,9 @@ class Recorder:
             for definition in definitions:
                 self.asked[f"fixture {definition.baseid} {definition.argname}"].add(_plain(item))
 
-    def pytest_unconfigure(self) -> None:
+    @pytest.hookimpl(trylast=True)
+    def pytest_sessionfinish(self) -> None:
+        """Write the record while the run still waits for this process: one that is slow is ended later."""
         self.coverage.stop()
         data = self.coverage.get_data()
         lines = {
