@@ -61,3 +61,27 @@ def test_a_broken_claim_is_told_by_what_it_is_about(
     speed = next(c for c in orbit_plan().certificate if c.constraint == "speed")
     claim = replace(speed, constraint=constraint, shot=shot, worst=1.0, limit=2.0, unit="m", upper=False)
     assert state_of(claim, code) == f"{told} is 1.000 m, at least 2.000 m is needed"
+
+
+OWN = ("drones", "cam1")
+SETTINGS = [
+    ((*OWN, "limits", "speed"), "speed", True, "raise `limits.speed` to 9.433 m/s"),
+    ((*OWN, "limits", "speed"), "speed", False, "lower `limits.speed` to 9.432 m/s"),
+    ((*OWN, "gimbal", "yaw"), "gimbal yaw min", True, "raise the first value of `gimbal.yaw` to 9.433 m/s"),
+    ((*OWN, "gimbal", "yaw"), "gimbal yaw max", True, "raise the second value of `gimbal.yaw` to 9.433 m/s"),
+    (("rules", "look_ahead"), "look ahead", True, "raise `rules.look_ahead` to 9.433 m/s"),
+    (("rules",), "look ahead", True, ""),
+    ((*OWN, "home"), "distance from home", True, ""),
+    (("limits", "speed", "more"), "speed", True, ""),
+]
+
+
+@pytest.mark.parametrize(("path", "constraint", "upper", "told"), SETTINGS)
+def test_the_setting_of_a_limit_is_named_by_its_last_two_keys(
+    path: tuple[str, ...], constraint: str, upper: bool, told: str
+) -> None:
+    plan = orbit_plan()
+    speed = next(c for c in plan.certificate if c.constraint == "speed")
+    broken = replace(speed, path=path, constraint=constraint, upper=upper, worst=9.4321, holds=False)
+    found = advice(plan.trajectory.keyframes.mission, broken, Rule("V001"), None)
+    assert found == (f"{told}, or plan the mission again" if told else "plan the mission again")
