@@ -137,7 +137,10 @@ def certified(
 
 
 def error_top(errors: Sequence[Array]) -> float:
-    """Return the end of an axis of screen errors: the least of TOPS_HALF_FRAMES above all, or the largest."""
+    """Return the end of an axis of screen errors: the least of TOPS_HALF_FRAMES above all, or the largest.
+
+    errors : of each target, (M,), half frames; those that are not finite do not count
+    """
     known = np.concatenate([np.empty(0), *errors])
     known = known[np.isfinite(known)]
     largest = float(known.max()) if len(known) else 0.0

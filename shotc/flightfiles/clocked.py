@@ -150,6 +150,8 @@ def of_show(flight: ShowFlight, show: SkycShow, file: str, origin: GeoOrigin | N
 def leaves(curve: Piecewise, pad: Array, pads: Array) -> tuple[float, float]:
     """Return the times at which a drone leaves the vertical over its pad and is over its landing pad,
     seconds.
+
+    pad : of the drone, (3,); pads : those it may land on, (n, 3), metres
     """
     last = curve.ctrl[-1, -1]
     end = pads[int(np.argmin(norm(pads - last)))]

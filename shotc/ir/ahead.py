@@ -28,7 +28,7 @@ def looks_along(shot: Shot) -> bool:
 def least_off_course(drone: Drone, off_course: Array) -> Array:
     """Return the least angle between course and admissible body heading, rad, shaped as ``off_course``.
 
-    off_course : camera yaw less the course, rad, any winding
+    off_course : camera yaw less the course, (...), rad, any winding
     """
     if drone.body == "follow-camera":
         return np.abs(wrapped(off_course))

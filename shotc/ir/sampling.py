@@ -29,12 +29,12 @@ SAME_TIME_S = 1e-9
 
 
 def clock(rate: float, end: float) -> Array:
-    """Return the ticks k / rate from 0 to the first one at or after ``end``, seconds; rate : Hz."""
+    """Return the ticks k / rate from 0 to the first one at or after ``end``, (M,), seconds; rate : Hz."""
     return np.arange(ceil((end - SAME_TIME_S) * rate) + 1) / rate
 
 
 def ticks(rate: float, start: float, end: float) -> Array:
-    """Return two times, seconds, and the ticks k / rate between them."""
+    """Return two times, seconds, and the ticks k / rate between them, (M,)."""
     times = clock(rate, end)
     inside = times[(times > start + SAME_TIME_S) & (times < end - SAME_TIME_S)]
     return np.concatenate([[start], inside, [end]])

@@ -49,7 +49,10 @@ def free_of_pad(track: DroneTrajectory, times: Array) -> Array:
 def nearest(
     world: World, flown: DroneRuns, track: DroneTrajectory, times: Array
 ) -> list[tuple[ClosestApproach, ...]]:
-    """Return for every run the least distance of a drone from each obstacle and each target."""
+    """Return for every run the least distance of a drone from each obstacle and each target.
+
+    times : at which it is measured, (M,), seconds
+    """
     drone, mission = world.mission.drone(flown.drone), world.mission
     free = free_of_pad(track, times)
     if not len(free):
@@ -67,8 +70,8 @@ def nearest(
 
 
 def between(mission: MissionIR, one: DroneRuns, other: DroneRuns, times: Array) -> list[ClosestApproach]:
-    """Return for every run the least distance of two drones' bodies; a drone that has landed is
-    on its pad.
+    """Return for every run the least distance of two drones' bodies at times (M,); a drone that has
+    landed is on its pad.
     """
     a, b = (at_times(f.position, f.times, times) for f in (one, other))
     reach = mission.drone(one.drone).radius + mission.drone(other.drone).radius

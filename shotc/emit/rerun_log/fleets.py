@@ -94,6 +94,8 @@ def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
 def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[str, tuple[Plot, ...]]) -> Any:
     """Return the layout of a mission that has only fleets: world, audience, texts and plots; the pictures
     play.
+
+    bounds : opposite corners of the scene, (3,) each, metres
     """
     displays = plan.trajectory.keyframes.mission.displays
     views = [

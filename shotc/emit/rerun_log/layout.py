@@ -31,7 +31,7 @@ def blueprint(
     """Return the blueprint of a recording, which opens at the first filmed frame and plays the filmed part.
 
     flown : end time (s) and plots of each drone
-    bounds : corners of the scene
+    bounds : opposite corners of the scene, (3,) each, metres
     """
     mission = plan.trajectory.keyframes.mission
     drones = [mission.drone(name) for name in flown]
@@ -96,7 +96,7 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
 def overview(bounds: tuple[Array, Array]) -> OpeningView:
     """Return the viewpoint that shows a whole scene.
 
-    bounds : corners of the scene, metres
+    bounds : opposite corners of the scene, (3,) each, metres
     """
     low, high = bounds
     centre = (low + high) / 2

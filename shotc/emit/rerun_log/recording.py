@@ -83,6 +83,6 @@ def _fill(recording: rr.RecordingStream, plan: VerifiedIR) -> None:
 
 def frustum_length(bounds: tuple[Array, Array]) -> float:
     """Return the distance of the drawn image plane from its camera, metres, for a scene with
-    these corners.
+    these opposite corners, (3,) each, metres.
     """
     return float(np.clip(np.linalg.norm(bounds[1] - bounds[0]) / 14, 2.0, 40.0))

@@ -49,7 +49,10 @@ def sample_times(flight: DroneTrajectory) -> Array:
 
 
 def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot, ...]:
-    """Return plots of speeds, acceleration, jerk, yaw rate and gimbal pitch with the drone's limits."""
+    """Return plots of speeds, acceleration, jerk, yaw rate and gimbal pitch with the drone's limits.
+
+    t : mission times, (M,), seconds
+    """
     place, limits = flight.curve.channels(X, Y, Z), drone.limits
     velocity = place.derivative()(t)
     acceleration = np.linalg.norm(place.derivative(2)(t), axis=-1)
@@ -82,6 +85,8 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
 
     Distances are measured from the sphere around the body. A negative slack is a violation. The floors of
     keep-in zones and the clearances do not hold during take-off and landing, so the slack is NaN there.
+
+    t : mission times, (M,), seconds
     """
     p = flight.curve.channels(X, Y, Z)(t)
     free = np.ones(len(t), dtype=np.bool_)

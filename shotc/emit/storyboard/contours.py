@@ -169,7 +169,10 @@ def profile_at(axes: Array, ground: Ground, through: Array, along: Array) -> Arr
 
 
 def draw_profile(canvas: Canvas, sheet: Sheet, line: Array) -> None:
-    """Draw the ground below a profile down to the edge of the sheet."""
+    """Draw the ground below a profile down to the edge of the sheet.
+
+    line : way and height of its points, (M, 2), metres; NaN where there is no ground
+    """
     known = np.isfinite(line[:, 1])
     ends = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]]).astype(int)))
     for start, end in ends.reshape(-1, 2):

@@ -39,7 +39,10 @@ def draw_error(canvas: Canvas, box: PageRectangle, shot: ComparedShot, what: tup
 
 
 def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
-    """Yield the intervals in which the flags hold, each extended half-way to the neighbouring samples."""
+    """Yield the intervals in which the flags hold, each extended half-way to the neighbouring samples.
+
+    share : of the samples' times in the shot, (M,), ascending; flags : (M,)
+    """
     joined = np.concatenate([[False], joins(share), [False]])
     for a, b in runs(share, flags):
         low = 0.5 * (share[a - 1] + share[a]) if joined[a] else share[a]
@@ -48,7 +51,10 @@ def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
 
 
 def runs(share: Array, flags: Mask) -> Iterator[tuple[int, int]]:
-    """Yield the first and one past the last index of consecutive samples whose flags hold."""
+    """Yield the first and one past the last index of consecutive samples whose flags hold.
+
+    share, flags : as of ``stretches``, (M,) each
+    """
     joined = np.concatenate([[False], joins(share)])
     (firsts,) = np.nonzero(flags & ~(joined & np.roll(flags, 1)))
     (lasts,) = np.nonzero(flags & ~(np.roll(joined, -1) & np.roll(flags, -1)))
@@ -56,7 +62,10 @@ def runs(share: Array, flags: Mask) -> Iterator[tuple[int, int]]:
 
 
 def joins(share: Array) -> Mask:
-    """Return which samples are followed by the next on the clock; at gaps another target is filmed."""
+    """Return which samples are followed by the next on the clock, (M - 1,); at gaps another target is filmed.
+
+    share : as of ``stretches``
+    """
     steps = np.diff(share)
     return np.asarray(steps <= 1.5 * float(np.median(steps))) if len(steps) else np.zeros(0, dtype=np.bool_)
 

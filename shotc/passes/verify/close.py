@@ -66,7 +66,7 @@ def rates(flight: JudgedFlight, target: str, start: float, end: float) -> Rates:
 
 
 def margins_close(flight: JudgedFlight, target: str, times: Array) -> bool:
-    """Return whether a target is proved whole in the frame between adjoining sample times as well."""
+    """Return whether a target is proved whole in the frame between adjoining sample times (M,) as well."""
     if len(times) < 2:
         return True
     bound = rates(flight, target, float(times[0]), float(times[-1]))
@@ -98,7 +98,10 @@ def _turned(target: Target, start: float, end: float) -> Callable[[Array], tuple
 
 
 def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, limit: float) -> bool:
-    """Return whether the distance to the reference on screen is proved below a limit between samples."""
+    """Return whether the distance to the reference on screen is proved below a limit between samples.
+
+    times : of the samples, (M,), seconds; limit : half frames
+    """
     if len(times) < 2:
         return True
     bound = rates(flight, target, float(times[0]), float(times[-1]))

@@ -104,7 +104,7 @@ def _off_place(shot: Shot, constraint: str, *, hard: bool) -> Limit:
 
 
 def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
-    """Return at which times of a shot a target is framed between two keyframes of its own.
+    """Return at which times (M,) of a shot a target is framed between two keyframes of its own.
 
     While the camera turns from one target to the next, neither can be whole in the frame. If a shot never has
     its target at two consecutive keyframes, all of its frames count.

@@ -110,7 +110,7 @@ def _worst(sight: CameraAndBody, times: Array, limit: float) -> WorstValue:
 
 
 def infimum(sight: CameraAndBody, times: Array, limit: float) -> ProvedExtreme:
-    """Return bounds of the least value over the time that the samples span."""
+    """Return bounds of the least value over the time that samples at times (M,) span."""
     if times[-1] <= times[0]:
         least = float(sight.out(times[:1])[0])
         return ProvedExtreme(least, least, float(times[0]))

@@ -98,7 +98,7 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
 
 
 def least_before_and_after(before: Array, after: Array) -> float:
-    """Return the least distance of two drones in two formations, at most 1; arguments as above."""
+    """Return the least distance of two drones in two formations (n, 3), at most 1."""
     motion = _FleetMotion(before, after, np.array([[1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]]))
     return min(
         float(np.maximum(*motion.gaps(k).distances(motion.scalars[k])).min(initial=1.0)) for k in (0, 1)

@@ -70,8 +70,8 @@ def layered(mould: Mould, layers: Layers, step: float) -> tuple[Array, Array]:
 
 
 def widest_layers(mould: Mould, layers: Layers, number: int, least: float) -> tuple[Array, Array]:
-    """Return places as ``layered`` of the widest lattice with ``number`` places, or else of the
-    densest one.
+    """Return places (K, 2) and their layers (K,), as ``layered``, of the widest lattice with ``number``
+    places, or else of the densest one.
     """
     best = layered(mould, layers, least)
     if len(best[0]) < number:

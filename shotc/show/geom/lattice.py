@@ -91,8 +91,8 @@ def laid(mould: Mould, step: float) -> Array:
 
 
 def widest(mould: Mould, number: int, least: float) -> Array | None:
-    """Return ``number`` points of the widest lattice with enough points in a mould; None if it is finer than
-    ``least``.
+    """Return ``number`` points of the widest lattice with enough points in a mould, (number, D); None if it
+    is finer than ``least``.
     """
     best = laid(mould, least)
     if len(best) < number:

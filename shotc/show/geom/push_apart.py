@@ -72,7 +72,7 @@ class Leash:
 def settled(
     goals: Array, leash: Leash, least: float, hold: Hold, *, upright: bool = False
 ) -> tuple[Array, bool]:
-    """Return goals pushed apart until they are or no progress is made, and whether they are apart."""
+    """Return goals (n, D) pushed apart until they are or no progress is made, and whether they are apart."""
     missing = float("inf")
     for iteration in range(MOST_ROUNDS):
         push, lacking = _pushes(goals, least, BEYOND_SHARE * (1.0 + iteration / 20), upright)
@@ -90,7 +90,7 @@ def settled(
 
 
 def nearest_pair(goals: Array) -> float:
-    """Return the least distance of two goals; infinite for a single one."""
+    """Return the least distance of two goals (n, D); infinite for a single one."""
     if len(goals) < 2:
         return float("inf")
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
@@ -112,7 +112,7 @@ class Close(NamedTuple):
 
 
 def close_pairs(goals: Array, least: float, upright: bool) -> Close:
-    """Return the pairs of goals nearer than a distance.
+    """Return the pairs of goals (n, D) nearer than a distance.
 
     upright : whether distances are those of cylinders
     """

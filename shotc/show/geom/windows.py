@@ -56,6 +56,6 @@ def windows(coef: Array) -> list[Window]:
 
 
 def stops(coef: Array) -> list[int]:
-    """Return the breaks at which a fleet stops, the first of each hold."""
+    """Return the breaks at which a fleet stops, the first of each hold; coef : (n, P + 3, 3)."""
     at = at_rest(coef)
     return [int(b) for k, b in enumerate(at) if k == 0 or b - at[k - 1] > 1]

@@ -153,7 +153,7 @@ def in_the_way(
     frames: Sequence[Array],
     surroundings: DisplaySurroundings,
 ) -> list[Diagnostic]:
-    """Return one fault for each obstacle that contains goals of a picture's frames, and one for
+    """Return one fault for each obstacle that contains goals of a picture's frames, (n, 3) each, and one for
     the ground.
     """
     goals = np.concatenate(frames)

@@ -149,7 +149,7 @@ def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
 
 
 def evenly(goals: Array, number: int) -> Array:
-    """Return ``number`` of the ordered goals, evenly chosen, or all if there are no more."""
+    """Return ``number`` of the ordered goals (n, 3), evenly chosen, or all if there are no more."""
     if len(goals) <= number:
         return goals
     return np.asarray(goals[np.linspace(0, len(goals) - 1, number).round().astype(np.intp)])
@@ -162,7 +162,10 @@ def drawn(setting: SpacingTask, draw: Draw, power: int) -> Array:
 
 
 def places_held(setting: SpacingTask, points: Array, factor: float) -> int:
-    """Return the number of places of the densest lattice in a volume enlarged by a factor."""
+    """Return the number of places of the densest lattice in a volume enlarged by a factor.
+
+    points : of the volume, (M, 3)
+    """
     mould = _mould(setting, points)
     rough = grain(mould.shape)
     return len(laid(mould._replace(slack=(mould.slack - rough) / factor + rough), setting.least / factor))

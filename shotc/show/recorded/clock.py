@@ -135,7 +135,10 @@ def needs(widths: Array, coef: Array, limits: Limits) -> Array:
 
 
 def worst(widths: Array, coef: Array, limits: Limits) -> Need:
-    """Return the drone and the limit that need most time."""
+    """Return the drone and the limit that need most time.
+
+    widths : of the pieces, (P,), seconds; coef : (n, P + 3, 3), metres
+    """
     best = Need(0, "speed", 0.0, limits.speed, 0, 0.0)
     for order, share in _shares(widths, coef, limits):
         drone, k = (int(i) for i in np.unravel_index(int(np.argmax(share)), share.shape))

@@ -54,6 +54,7 @@ def flying(
     """Yield the samples of a fleet that flies along splines (``geom.fleet_spline``), from rest at their
     start.
 
+    breaks, coef : shapes (P + 1,) and (n, P + 3, 3)
     avoid : may change the preferred velocities; None leaves them
     """
     reference = FleetReference.of(breaks, coef)

@@ -70,6 +70,7 @@ def draw_stands(
 
     A number is outside all outlines if there is room.
 
+    shapes : outlines on the sheet, (K, 2) each, inches
     taken : rectangles that numbers must not overlap
     """
     for k, shape in enumerate(shapes):
@@ -96,8 +97,8 @@ def draw_stands(
 
 
 def anchors(shapes: Sequence[Array]) -> list[Array]:
-    """Return the place on each outline to which its number leads: far from other outlines, else spread
-    around.
+    """Return the place (2,) on each outline (K, 2) to which its number leads: far from other outlines, else
+    spread around.
     """
     edges = [_fine(shape) for shape in shapes]
     anchors = []
