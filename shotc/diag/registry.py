@@ -37,7 +37,7 @@ FAMILIES = {
 
 @cache
 def registry() -> dict[str, CodeInfo]:
-    """Return every known code, in order of family and number."""
+    """Return every known code, in order of family and number; raise ValueError if one is registered twice."""
     table: dict[str, CodeInfo] = {}
     for module, _ in FAMILIES.values():
         codes: tuple[CodeInfo, ...] = import_module(f"shotc.diag.codes.{module}").CODES

@@ -65,7 +65,7 @@ class TimingSpec(Model, defer_build=False):
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Return an empty mapping for ``auto``."""
+        """Return an empty mapping for ``auto``; raise a fault for a value that is no timing."""
         if data == "auto":
             return {}
         if isinstance(data, str | int | float) and not isinstance(data, bool):

@@ -71,7 +71,7 @@ class _ItemReader:
 
 
 def plan(data: bytes, name: str) -> Waypoints:
-    """Return the points of a ``.plan``."""
+    """Return the points of a ``.plan``; raise Unread with the fault of a file that is none."""
     document = opened(data, name)
     if isinstance(document, Refused):
         raise Unread(document._replace(code=FOREIGN if document.code == "I002" else UNREADABLE))

@@ -26,7 +26,7 @@ FEET = {SPEED: "ft/s", HEIGHT: "ft", CURVE: "ft"}
 
 
 def waypoints(text: str) -> Waypoints:
-    """Return the points of a mission."""
+    """Return the points of a mission; raise Unread with the fault of a file that is no such table."""
     heights = (f"{HEIGHT}(m)", f"{HEIGHT}(ft)")
     table = table_of(text, [("latitude",), ("longitude",), heights, ("heading(deg)",)], EXAMPLE)
     if isinstance(table, Refused):

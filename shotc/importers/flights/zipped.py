@@ -48,7 +48,7 @@ class _Table(NamedTuple):
 
 
 def tables(data: bytes) -> tuple[DroneRows, ...]:
-    """Return the rows of each drone, in the order of the tables in the archive."""
+    """Return the rows of each drone, in the order of the archive; raise Unread for a bad table."""
     by_drone: dict[str, DroneRows] = {}
     left = MOST_ROWS
     for member in members(data, _is_table, LARGEST_CLOCKED_BYTES):

@@ -61,7 +61,10 @@ class Director:
         return self._done > before
 
     def finish(self) -> list[Diagnostic]:
-        """Write the return of the fleet; return the faults of its times."""
+        """Write the return of the fleet; return the faults of its times.
+
+        Raise ValueError if displays wait for each other in a circle, which ``check`` refuses.
+        """
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
         if self.score.phases[-1].name != "land":
