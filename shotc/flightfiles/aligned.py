@@ -19,7 +19,7 @@ from shotc.importers.flights.points import BROKEN, refuse
 from shotc.importers.flights.rows import BODY, CAMERA, PHASE, SHOT, DroneRows
 from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
-from shotc.ir.keyframes import KeyframeIR, PlacedShot
+from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV
 from shotc.ir.phases import UPRIGHT, KeyframeTime, Phase, PhaseName, Reference
@@ -207,6 +207,8 @@ def _framed(
 ) -> Iterator[Reference]:
     """Yield the references of a shot: its subjects throughout, or its keyframes' targets between
     keyframes.
+
+    On the way from one target to another the first one is framed until the middle of the time.
     """
     track, met = flown
     if placed.shot.ideal is not None:
@@ -219,7 +221,10 @@ def _framed(
         line = None if only.reference is None else _line(ends, np.array([only.reference] * 2))
         yield Reference(placed.shot.id, only.target, phase.start, phase.end, line)
     for (a, one), (b, other) in pairwise(zip(placed.keyframes, met, strict=True)):
-        if a.target is None or a.target != b.target or other.time <= one.time:
+        if other.time <= one.time:
+            continue
+        if a.target is None or a.target != b.target:
+            yield from _in_turn(placed.shot.id, (a, one), (b, other))
             continue
         line = None
         if a.reference is not None and b.reference is not None:
@@ -230,6 +235,22 @@ def _framed(
             share = np.clip(np.nan_to_num(off @ along / max(float(along @ along), 1e-12)), 0.0, 1.0)
             line = _line(times, first + share[:, None] * along)
         yield Reference(placed.shot.id, a.target, one.time, other.time, line)
+    last = placed.keyframes[-1]
+    if len(met) > 1 and last.target is not None:
+        end = min(met[-1].time + last.hold, phase.end)
+        yield Reference(placed.shot.id, last.target, met[-1].time, end, None)
+
+
+def _in_turn(
+    shot: str, before: tuple[PlacedKeyframe, KeyframeTime], after: tuple[PlacedKeyframe, KeyframeTime]
+) -> Iterator[Reference]:
+    """Yield the references between keyframes of two targets, which change in the middle of the time."""
+    (a, one), (b, other) = before, after
+    middle = 0.5 * (one.time + a.hold + other.time)
+    if a.target is not None:
+        yield Reference(shot, a.target, one.time, middle, None)
+    if b.target is not None:
+        yield Reference(shot, b.target, middle, other.time, None)
 
 
 def _subjects(mission: MissionIR, placed: PlacedShot, phase: Phase) -> Iterator[Reference]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from math import dist
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,9 @@ from shotc.ir.tolerances import OFF_LINE_HALF_FRAMES
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
+SAME_PLACE_M = 0.01
+"""Distance of two keyframes up to which the camera turns on the spot, metres."""
+
 Mask = NDArray[np.bool_]
 
 
@@ -36,8 +40,15 @@ class _KeyframedSpan(NamedTuple):
     after: PlacedKeyframe
 
 
+class _Watched(NamedTuple):
+    """Times, shape (M,), seconds, and the targets of which one is framed then."""
+
+    times: Array
+    targets: tuple[str | None, ...]
+
+
 def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
-    """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
+    """Yield claims that targets at keyframes and between them are framed, with the keyframes' references.
 
     Between two references the wanted one lies on the straight line from one to the other. The first claim is
     always hard: other claims judge the picture of the target only while the target is framed. The second one
@@ -52,24 +63,50 @@ def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) ->
         limit = Limit("keyframes without a time", 0.0, "", shot.path, hard=hard, shot=shot.id)
         yield claim(flight, limit, WorstValue(float(len(placed.keyframes) - len(times)), None, "exact"))
         return
-    legs = list(_legs(placed, times, phase))
-    if not legs:
+    legs = list(_sampled(flight, _legs(placed, times, phase)))
+    shown = [
+        *(_Watched(leg.times, (leg.before.target,)) for leg in legs),
+        *_at_keyframes(placed, times, phase),
+        *_in_changes(flight, placed, times),
+    ]
+    if not shown:
         return
-    gaps = [
-        (float((~framed(flight.track, shot.id, str(a.target), t)).sum()), t)
-        for t, a, _ in _sampled(flight, legs)
-    ]
-    missing, where = max(gaps, key=lambda pair: pair[0])
-    yield claim(flight, _unframed(shot), WorstValue(missing, float(where[0]), "sampled"))
-    errors = [
-        _off(flight, shot.id, leg)
-        for leg in _sampled(flight, legs)
-        if leg.before.reference and leg.after.reference
-    ]
+    missing, when = max((_unseen(flight, shot, t, names), float(t[0])) for t, names in shown)
+    yield claim(flight, _unframed(shot), WorstValue(missing, when, "sampled"))
+    errors = [_off(flight, shot.id, leg) for leg in legs if leg.before.reference and leg.after.reference]
     if errors:
         worst, time = max(errors)
         limit = _off_place(shot, "reference off its keyframes", hard=hard)
         yield claim(flight, limit, WorstValue(worst, time, "sampled"))
+
+
+def _at_keyframes(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[_Watched]:
+    """Yield the times of each keyframe with a target, where its hold begins and ends."""
+    for i, keyframe in enumerate(placed.keyframes):
+        if keyframe.target is not None:
+            ends = np.unique([times[i], min(times[i] + keyframe.hold, phase.end)])
+            yield _Watched(ends, (keyframe.target,))
+
+
+def _in_changes(flight: JudgedFlight, placed: PlacedShot, times: dict[int, float]) -> Iterator[_Watched]:
+    """Yield the times of each way from one target to another, on which one of both is framed.
+
+    Where the picture changes is left to the plan: whichever of the two it says to frame is judged.
+    """
+    for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
+        start, end = times[i] + a.hold, times[j]
+        ticks = clock(flight.mission.rate, end)
+        inside = ticks[(ticks > start) & (ticks < end)]
+        if a.target is None or b.target is None or a.target == b.target or not len(inside):
+            continue
+        if dist(a.at, b.at) > SAME_PLACE_M:
+            yield _Watched(inside, (a.target, b.target))
+
+
+def _unseen(flight: JudgedFlight, shot: Shot, times: Array, names: tuple[str | None, ...]) -> float:
+    """Return the number of times, shape (M,), at which none of some targets is framed."""
+    seen = [framed(flight.track, shot.id, str(name), times) for name in names]
+    return float((~np.any(seen, axis=0)).sum())
 
 
 def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
@@ -138,7 +175,7 @@ class _SampledLeg(NamedTuple):
     after: PlacedKeyframe
 
 
-def _sampled(flight: JudgedFlight, legs: list[_KeyframedSpan]) -> Iterator[_SampledLeg]:
+def _sampled(flight: JudgedFlight, legs: Iterator[_KeyframedSpan]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
         ticks = clock(flight.mission.rate, end)
         inside = ticks[(ticks > start) & (ticks < end)]

@@ -166,10 +166,45 @@ def test_keyframes_without_a_place_on_screen_have_no_line() -> None:
         assert set(found) == {UNFRAMED}
 
 
-def test_keyframes_of_two_targets_have_nothing_between_them() -> None:
-    for targets in (("mast", "tower"), (None, "mast"), ("mast", None), (None, None)):
-        turned = plain_shot(keyframe(WEST, FIRST, targets[0]), keyframe(EAST, LAST, targets[1]))
-        assert judged(turned, STRAIGHT) == {}
+TICKS = 10.0 * RATE - 1  # between the two keyframes
+
+
+@pytest.mark.parametrize(
+    ("targets", "spans", "frames"),
+    [
+        (("mast", "tower"), (("mast", 4.0, 9.0), ("tower", 9.0, 14.0)), 0),
+        (("mast", "tower"), (("mast", 4.0, 14.0),), 1),
+        (("mast", "tower"), (("mast", 4.0, 13.0), ("tower", 6.0, 14.0)), 0),
+        (("mast", "tower"), (("mast", 4.0, 8.0), ("tower", 9.0, 14.0)), 1.0 * RATE - 1),
+        (("mast", "tower"), (), TICKS),
+        ((None, "mast"), (("mast", 14.0, 14.0),), 0),
+        ((None, "mast"), (("mast", 4.0, 13.0),), 1),
+        (("mast", None), (("mast", 4.0, 4.0),), 0),
+        (("mast", None), (), 1),
+    ],
+)
+def test_keyframes_of_two_targets_have_one_of_them_framed_between(
+    targets: tuple[str | None, str | None], spans: tuple[tuple[str, float, float], ...], frames: float
+) -> None:
+    turned = plain_shot(keyframe(WEST, FIRST, targets[0]), keyframe(EAST, LAST, targets[1]))
+    found = judged(turned, *(span(None, start, end, target) for target, start, end in spans))
+    assert set(found) == {UNFRAMED}
+    assert (found[UNFRAMED].worst, found[UNFRAMED].holds) == (frames, frames == 0)
+
+
+def test_a_hold_frames_its_target_to_its_end() -> None:
+    held = plain_shot(keyframe(WEST, FIRST, "mast", hold=2.0), keyframe(EAST, LAST, None))
+    assert judged(held, span(None, 4.0, 6.0))[UNFRAMED].worst == 0
+    assert judged(held, span(None, 4.0, 5.0))[UNFRAMED].worst == 1
+
+
+def test_a_camera_that_turns_on_the_spot_frames_its_targets_before_and_after() -> None:
+    turned = plain_shot(keyframe(WEST, FIRST, "mast"), keyframe(WEST, LAST, "tower"))
+    assert judged(turned, span(None, 4.0, 4.0), span(None, 14.0, 14.0, "tower"))[UNFRAMED].worst == 0
+
+
+def test_keyframes_of_no_target_have_nothing_between_them() -> None:
+    assert judged(plain_shot(keyframe(WEST, FIRST, None), keyframe(EAST, LAST, None)), STRAIGHT) == {}
 
 
 def test_a_hold_before_the_way_is_not_judged_by_the_line() -> None:
