@@ -3,7 +3,7 @@
 Keyframes that share a line of the mission, as generated ones do, are reported once, for the worst of them.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from math import degrees, hypot, pi, radians
 from typing import NamedTuple
@@ -104,17 +104,34 @@ def cropped_or_beyond(keyframe: Keyframe, setting: FixedCamera, aim: Vec2) -> Mi
         f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
         (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
         lambda mission, shot: ", or ".join(
-            ["turn the camera towards it", "move away", *_wider(setting, aim, _widest(mission, shot))]
+            ["turn the camera towards it", "move away", *_wider(keyframe, setting, aim, (mission, shot))]
         ),
     )
 
 
-def _wider(setting: FixedCamera, aim: Vec2, widest: float) -> list[str]:
-    """Return which lens shows the whole target at the same angles, if the drone may have it."""
+def _wider(
+    keyframe: Keyframe, setting: FixedCamera, aim: Vec2, where: tuple[MissionIR, Shot]
+) -> Iterator[str]:
+    """Yield which lens shows the whole target at the same angles, if the drone may have it.
+
+    where : the mission and the shot
+    """
+    widest = _widest(*where)
     if setting.hfov >= widest:
-        return []
+        return
     wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH_M, setting.hfov, widest)
-    return ["widen `hfov`" if wide is None else f"widen `hfov` to {at_least(degrees(wide), 1)} deg"]
+    yield "widen `hfov`" if wide is None else _lens(*where, keyframe, wide)
+
+
+def _lens(mission: MissionIR, shot: Shot, keyframe: Keyframe, wide: float) -> str:
+    """Return how a field of view, rad, is written: by the key that the mission has, or by a new one."""
+    drone, written = mission.drone(shot.drone), mission.origins.values
+    angle, camera = f"{at_least(degrees(wide), 1)} deg", (*drone.path, "camera")
+    if (*camera, "focal_length") in written:
+        return f"shorten `focal_length` until the lens is {angle} wide"
+    if (*keyframe.path, "hfov") in written or (*camera, "hfov") in written:
+        return f"widen `hfov` to {angle}"
+    return f"widen `hfov` to {angle}, by `camera: {{hfov: {angle}}}` of `{drone.name}`"
 
 
 def _widest(mission: MissionIR, shot: Shot) -> float:
@@ -179,25 +196,18 @@ def _what_fits(keyframe: Keyframe, setting: FixedCamera, mission: MissionIR, sho
     composition = keyframe.composition
 
     def options(fits: Fits) -> str:
-        return _options(
-            farther(mission, shot, keyframe, setting, fits), setting, fits, _widest(mission, shot)
-        )
+        wide, widest = None, _widest(mission, shot)
+        if setting.hfov < widest:
+            wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, widest)
+        distance = farther(mission, shot, keyframe, setting, fits)
+        lens = "" if wide is None else _lens(mission, shot, keyframe, wide)
+        return ", or ".join(option for option in (distance, lens) if option)
 
     return (
         options(lambda s: has_candidate(s, composition))
         or options(lambda s: roomiest(s, composition) >= -TOUCH_M)
         or "point the camera from lower or farther away, or make the target smaller"
     )
-
-
-def _options(distance: str, setting: FixedCamera, fits: Fits, widest: float) -> str:
-    wide = None
-    if setting.hfov < widest:
-        wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, widest)
-    options = [distance]
-    if wide is not None:
-        options.append(f"widen `hfov` to {at_least(degrees(wide), 1)} deg")
-    return ", or ".join(option for option in options if option)
 
 
 def _range(setting: FixedCamera) -> str:
