@@ -84,6 +84,13 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
         "pads come in the order of their boxes: all that follow are farther, too",
     ),
     Equivalent(
+        "shotc/passes/verify/space.py",
+        "margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)",
+        "-  ->  nothing",
+        "a claim has the proven value and its time alone",
+        1,
+    ),
+    Equivalent(
         "shotc/show/solvers/own_heights.py",
         "moved[:FIXED_POINTS], moved[-FIXED_POINTS:] = ctrl[0], ctrl[-1]",
         "0  ->  1",

@@ -6,6 +6,12 @@ from tests.experiments.mutants.equivalent import Equivalent
 
 OF_GEOMETRY: tuple[Equivalent, ...] = (
     Equivalent(
+        "shotc/geom/nearest_pair.py",
+        "return PairMotions(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))",
+        "zeros  ->  ones",
+        "arrays without an element",
+    ),
+    Equivalent(
         "shotc/geom/bspline.py",
         "first = np.arange(pieces)[:, None] + np.arange(1, 2 * DEGREE + 1)",
         "1  ->  2",

@@ -251,3 +251,17 @@ def test_a_height_that_is_asked_for_alone_is_the_one_that_is_seen(elevation: flo
     x, y, z = (a - b for a, b in zip(pose[:3], MAN.centre, strict=True))
     assert np.arctan2(z, hypot(x, y)) == pytest.approx(elevation, abs=1e-3)
     assert cost < 1e-6
+
+
+def test_off_a_preferred_pose_shares_of_the_distance_and_angles_count() -> None:
+    drawn = module.PreferredPose((3.0, 4.0, MAN.centre[2]), 0.4, -0.3)
+    far = hypot(*(a - b for a, b in zip(drawn.at, MAN.centre, strict=True)))
+    pose = (3.5, 4.0, MAN.centre[2] - 1.0, 0.7, -0.1)
+    place, angles = [0.5 / far, 0.0, -1.0 / far], [2.0 * sin(0.15), 0.2]
+    found = module._off_pose(pose, drawn, (MAN,))
+    assert found == pytest.approx([module.NEAR_WEIGHT * each for each in (*place, *angles)])
+    for yaw, pitch in ((None, -0.3), (0.4, None), (None, None)):
+        free = module._off_pose(pose, drawn._replace(yaw=yaw, pitch=pitch), (MAN,))
+        kept = [a for a, asked in zip(angles, (yaw, pitch), strict=True) if asked is not None]
+        assert free == pytest.approx([module.NEAR_WEIGHT * each for each in (*place, *kept)])
+    assert module._off_pose(pose, None, (MAN,)) == []

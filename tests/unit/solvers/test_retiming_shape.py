@@ -218,3 +218,14 @@ def test_rest_at_both_ends_is_asked_of_every_unknown_there() -> None:
         rows.x[first], rows.x[first + made.nodes - 1] = 3.0, 5.0
     made.motion()
     assert [found.tolist() for found in rows.zeros[:3]] == [[3.0, 5.0]] * 3
+
+
+def test_the_middle_of_a_cell_in_which_the_speed_falls_and_rises_is_found() -> None:
+    """At the middle the speed is three quarters of its mean: Newton's steps are longer than elsewhere."""
+    motion = Motion(0)
+    motion.times, motion.jerks = np.array([2.0]), np.array([8.0])
+    motion.v, motion.a = np.array([8.0, 8.6]), np.array([-7.7, 8.3])
+    motion.widths = motion.v[:-1] * 2.0 + motion.a[:-1] * 2.0 + motion.jerks * 8.0 / 6.0
+    length, speed, _ = motion.at(motion.shape().middle)
+    assert (speed / (motion.widths / motion.times)).min() < 0.8
+    assert length == pytest.approx(motion.widths / 2, rel=1e-7)

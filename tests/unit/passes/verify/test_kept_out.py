@@ -98,3 +98,17 @@ def test_a_drone_that_comes_from_elsewhere_is_put_off(first: str) -> None:
     found = next(kept_out(CameraAndBody(of, eye, bird), broken, shown))
     moved = "start shot `birds` after `eyes`" if first == "eye" else "start shot `eyes` after `birds`"
     assert found.startswith(moved)
+
+
+@pytest.mark.parametrize("yaw", [0.7, 3.0, -2.5])
+def test_the_turn_counts_from_where_the_camera_is_and_looks(yaw: float) -> None:
+    eye = EYE.copy()
+    eye[:2], eye[3] = (30.0, -50.0), yaw
+    x, y = 30.0 + 20.0 * np.cos(yaw + 0.3), -50.0 + 20.0 * np.sin(yaw + 0.3)
+    bird = DroneTrajectory("bird", still(at(x, y, 10.0)), (), (), ())
+    of, tracks = given_headings(mission()), (film("eye", still(eye)), bird)
+    broken = next(c for c in claims(of, *tracks) if c.subject == "eye")
+    found = list(kept_out(CameraAndBody(of, *tracks), broken, tracks[0].phases[0]))
+    by = ceil(WIDE_DEG + degrees(np.arcsin(0.5 / 20.0)) - degrees(0.3) + 0.5)
+    heading = round(90.0 - degrees(yaw) + by) % 360
+    assert f"turn the camera of `eyes` {by} deg to the right, by `heading: {heading} deg`" in found

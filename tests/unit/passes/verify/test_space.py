@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from math import hypot, inf
 
+import numpy as np
 import pytest
 
+from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid
 from shotc.geom.track import Track
@@ -15,7 +17,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.space import DRIFT_M, space
-from tests.support.plain_flights import HOP, PHASES, RADIUS_M, plain_flight, plain_mission
+from tests.support.plain_flights import HOP, PHASES, RADIUS_M, lines, plain_flight, plain_mission
 from tests.support.records import replace
 
 Way = tuple[tuple[float, Vec3], ...]
@@ -191,3 +193,38 @@ def test_the_greatest_height_holds_for_verticals_too(time: float, spare: float) 
     assert (claim.upper, claim.holds, claim.time) == (True, spare > 0, time)
     for none in (None, inf):
         assert "height above ground" not in claims(rules=replace(rules, max_height=none))
+
+
+@pytest.mark.parametrize("home", [(5.0, -7.0, 2.0), (-30.0, 4.0, -1.0)])
+def test_verticals_are_over_the_home_wherever_it_is(home: Vec3) -> None:
+    drone = replace(plain_mission().drones[0], home=home)
+    shifted = tuple((t, (x + home[0], y + home[1], z + home[2])) for t, (x, y, z) in HOP)
+    wall = Cylinder((home[0] + 2.0, home[1]), 1.7, home[2], home[2] + 5.0)
+    found = claims(shifted, drones=(drone,), **zone("out", wall))
+    for name in ("drift from the vertical", "depth below home"):
+        assert found[name].worst == pytest.approx(0.0, abs=1e-9)
+        assert found[name].holds
+    assert found["zone it at home"].limit == pytest.approx(0.3 - RADIUS_M)
+    assert found["zone it at home"].holds
+    moved = dict(shifted) | {2.0: (home[0] + 0.3, home[1] - 0.4, home[2] - 0.2)}
+    found = claims(tuple(sorted(moved.items())), drones=(drone,))
+    assert found["drift from the vertical"].worst == pytest.approx(0.5, abs=1e-6)
+    assert found["depth below home"].worst == pytest.approx(0.2, abs=1e-6)
+
+
+@pytest.mark.parametrize("spare", [1e-5, -1e-5])
+@pytest.mark.parametrize("keep", ["in", "out"])
+def test_a_bend_is_bounded_as_closely_as_the_limit_asks(keep: str, spare: float) -> None:
+    """The way out bends to the North along a parabola, 6 m at most, and the wall is a radius beyond that."""
+    plain = lines(HOP)
+    ctrl = np.stack([plain.ctrl[:, 0], plain.ctrl.mean(axis=1), plain.ctrl[:, 1]], axis=1)
+    ctrl[1, 1, 1] = 12.0
+    wall = 6.0 + RADIUS_M + spare
+    field = Prism(((-9.0, -9.0), (49.0, -9.0), (49.0, wall), (-9.0, wall)), 0.0, 30.0)
+    beyond = Prism(((-9.0, wall), (49.0, wall), (49.0, 99.0), (-9.0, 99.0)), 0.0, 30.0)
+    mission = plain_mission(**zone(keep, field if keep == "in" else beyond))
+    flight = plain_flight(mission)
+    track = replace(flight.track, curve=Piecewise(plain.breaks, ctrl))
+    (claim,) = (c for c in space(replace(flight, track=track)) if c.constraint == "zone it")
+    assert claim.worst == pytest.approx(spare, abs=1e-6)
+    assert claim.holds == (spare > 0)
