@@ -112,3 +112,38 @@ def test_the_turn_counts_from_where_the_camera_is_and_looks(yaw: float) -> None:
     by = ceil(WIDE_DEG + degrees(np.arcsin(0.5 / 20.0)) - degrees(0.3) + 0.5)
     heading = round(90.0 - degrees(yaw) + by) % 360
     assert f"turn the camera of `eyes` {by} deg to the right, by `heading: {heading} deg`" in found
+
+
+@pytest.mark.parametrize(("first", "last"), [(10.0, -20.0), (-10.0, 20.0), (25.0, 5.0)])
+def test_the_turn_is_enough_for_all_of_the_shot(first: float, last: float) -> None:
+    ends = [at(20.0 * np.cos(radians(b)), 20.0 * np.sin(radians(b)), 10.0) for b in (first, last)]
+    moves = through([0.0, 10.0], ends)
+    x, y = moves(np.linspace(0.0, 10.0, 501))[:, :2].T
+    edge = WIDE_DEG + np.degrees(np.arcsin(0.5 / np.hypot(x, y)))
+    off = np.degrees(np.arctan2(y, x))
+    by = {"right": float((edge - off).max()), "left": float((edge + off).max())}
+    where = min(by, key=lambda side: by[side])
+    found = advice(DroneTrajectory("bird", moves, (), (), ()))
+    assert any(
+        f"turn the camera of `eyes` {ceil(by[where] + 0.5)} deg to the {where}" in text for text in found
+    )
+
+
+def test_a_body_that_is_about_the_camera_once_has_no_turn() -> None:
+    moves = through([0.0, 5.0, 10.0], [at(20.0, 3.0, 10.0), at(0.2, 0.2, 10.0), at(20.0, -3.0, 10.0)])
+    found = advice(DroneTrajectory("bird", moves, (), (), ()))
+    assert not any("turn the camera" in text for text in found)
+
+
+@pytest.mark.parametrize(("until", "moved"), [(radians(80.0), True), (radians(20.0), False)])
+def test_a_pad_that_is_seen_at_any_time_is_moved(until: float, moved: bool) -> None:
+    """The camera turns to the left, perhaps to the other drone's pad; that one flies ahead of it."""
+    turns = EYE.copy()
+    turns[3] = until
+    eye = film("eye", through([0.0, 10.0], [EYE, turns]))
+    pad, ahead = at(0.0, 30.0, 10.0), at(20.0, 0.0, 10.0)
+    bird = DroneTrajectory("bird", through([0.0, 1.0, 9.0, 10.0], [pad, ahead, ahead, pad]), (), (), ())
+    of = given_headings(mission())
+    broken = next(c for c in claims(of, eye, bird) if c.subject == "eye")
+    found = list(kept_out(CameraAndBody(of, eye, bird), broken, eye.phases[0]))
+    assert (found[0] == "move the home of `bird`, which is in the picture, too") == moved
