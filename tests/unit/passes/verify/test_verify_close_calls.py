@@ -68,7 +68,9 @@ def test_a_hold_that_stands_still_is_met() -> None:
         for p in PLAN.drones[0].phases
     ]
     held = with_keyframe(4, hold=2.0)
-    held = with_track(held, curve=joined, phases=tuple(phases))
+    (framing,) = PLAN.drones[0].framing
+    stands = replace(framing, start=52.0, end=54.0, reference=None)
+    held = with_track(held, curve=joined, phases=tuple(phases), framing=(framing, stands))
     timing = replace(MISSION.shots[0], timing=Timing(duration=32.0))
     held = with_mission(held, shots=(timing,))
     assert codes(held) == []
