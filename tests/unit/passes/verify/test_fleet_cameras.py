@@ -5,15 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.shapes import CylinderShape
 from shotc.geom.vec import Vec3
+from shotc.ir.fleet import FrameTimes, Lights
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.fleets.apart import from_parked
-from shotc.passes.verify.fleets.cameras import from_cameras
+from shotc.passes.verify.fleets.cameras import from_cameras, named_pictures
 from tests.support.plain_fleets import flown
 from tests.support.plain_flights import lines, plain_mission
 from tests.support.records import replace
-from tests.support.show_plans import fleet, mission
+from tests.support.show_plans import display, fleet, mission
 
 NEAR_M = 1e-4
 FAR_END = (8.0, 20.0, 10.0)
@@ -98,3 +101,21 @@ def test_a_fleet_that_stands_on_its_pads_is_kept_apart(spare: float) -> None:
     assert (claim.limit, claim.holds) == (pytest.approx(least), spare > 0)
     assert claim.drones == ("swarm-3", "spare-1")
     assert np.isfinite(claim.time or 0.0)
+
+
+@pytest.mark.parametrize("spare", [1e-3, -1e-3])
+def test_the_lights_of_a_named_picture_are_within_the_body_that_cameras_frame(spare: float) -> None:
+    """Three drones stand in a row of 8 m at 12 s, about the middle of the body."""
+    star = Target("star", (4.0, 20.0, 10.0), CylinderShape(4.0 + spare, 2.0), ("targets", "star"))
+    shown = display()
+    named = shown._replace(pictures=(shown.pictures[0]._replace(name="star"), *shown.pictures[1:]))
+    of = flown(targets=(star,), displays=(named,))
+    frames = (FrameTimes("globe", 0, 0, 12.0, 16.0), FrameTimes("globe", 1, 0, 16.0, 18.0))
+    lit = replace(of.track, lights=Lights(np.array([0.0]), np.full((3, 1, 3), 255, dtype=np.uint8)))
+    (claim,) = named_pictures(replace(of, track=lit), named, frames)
+    assert claim.worst == pytest.approx(max(0.0, -spare), abs=1e-9)
+    assert (claim.constraint, claim.limit, claim.holds) == ("lights outside star", 0.0, spare > 0)
+    assert (claim.time, claim.shot) == (12.0, "globe")
+    dark = replace(of.track, lights=Lights(np.array([0.0]), np.zeros((3, 1, 3), dtype=np.uint8)))
+    (none,) = named_pictures(replace(of, track=dark), named, frames)
+    assert none.worst == 0.0

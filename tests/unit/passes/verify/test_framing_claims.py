@@ -17,7 +17,9 @@ from shotc.ir.phases import Reference
 from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify import promises
 from shotc.passes.verify.claims import JudgedFlight
+from shotc.passes.verify.energy import energy_note
 from shotc.passes.verify.promises import unjudged
 from tests.support.film_plans import SPEED
 from tests.support.plain_flights import WEST, plain_flight, plain_keyframe, plain_mission, plain_shot
@@ -201,3 +203,26 @@ def test_samples_are_of_the_frames_that_show_a_target_and_of_both_ends() -> None
             place_now = np.array([6.0 / (ahead * half), 3.0 / (ahead * half) * mission.drones[0].aspect])
             assert error == pytest.approx(np.linalg.norm(place_now - place))
     assert module.view_of(flight, one, "tower", track.phases[1]) is None
+
+
+@pytest.mark.parametrize(
+    ("small", "large", "told"),
+    [(0.123, 0.5, "size: [0.123, 0.8]"), (0.5, 0.934, "size: [0.2, 0.934]"), (0.1, 1.0, "size: [0.1, 1]"),
+     (0.5, 1.2, ""), (-inf, 0.9, "")],
+)  # fmt: skip
+def test_a_size_that_is_kept_is_told_where_it_is_one(small: float, large: float, told: str) -> None:
+    shot: Any = SimpleNamespace(id="half", promise=Promise(size=(0.2, 0.8)))
+    size = replace(SPEED, shot="half", constraint="mast size smallest", upper=False, unit="of the frame")
+    low = replace(size, worst=small, holds=small >= 0.2)
+    high = replace(size, constraint="mast size largest", upper=True, worst=large, holds=large <= 0.8)
+    other = replace(low, shot="back", worst=0.05, holds=False)
+    assert promises._size(shot, (low, high, other)) == told
+
+
+def test_the_energy_of_a_flight_is_told_shot_by_shot() -> None:
+    whole = replace(SPEED, constraint="energy", unit="Wh", worst=10.0, shot=None)
+    shots = [replace(whole, shot=name, worst=wh) for name, wh in (("look", 3.0), ("rise", 2.0))]
+    others = [replace(whole, subject="cam2", shot="away", worst=9.0), replace(SPEED, shot="look", worst=7.0)]
+    note = energy_note(whole, (whole, *shots, *others))
+    assert note == "shot `look` takes 3 Wh, shot `rise` takes 2 Wh, all else 5 Wh"
+    assert energy_note(SPEED, (whole, *shots)) == ""

@@ -15,13 +15,14 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
+from shotc.ir.origin import OriginMap
 from shotc.ir.passes import PassContext
 from shotc.ir.source import MissionSource
 from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.file import _against_the_file, against, verify_file
 from shotc.planfile.read import ReadPlan
-from shotc.source.file import SourceFile
+from shotc.source.file import SourceFile, Span
 from tests.support.film_plans import SPEED, orbit_mission
 from tests.support.records import replace
 
@@ -57,6 +58,13 @@ def test_a_file_that_is_drawn_or_linked_is_the_same() -> None:
         "`house.glb` is another file than the plan was made with",
     ]
     assert held(drawn_by(), None, other) == []  # a name that only the file has is a difference of the mission
+
+
+def test_a_comment_that_moves_all_lines_is_no_difference() -> None:
+    mission = orbit_mission()
+    places = {("drones", "cam1"): Span(1, 1, 1, 9)}
+    moved = mission._replace(origins=OriginMap("mission.yaml", places, places))
+    assert held(mission, None, moved) == held(moved, moved, mission) == []
 
 
 def triangles(height: float) -> np.ndarray:

@@ -215,11 +215,13 @@ def test_verticals_are_over_the_home_wherever_it_is(home: Vec3) -> None:
 @pytest.mark.parametrize("spare", [1e-5, -1e-5])
 @pytest.mark.parametrize("keep", ["in", "out"])
 def test_a_bend_is_bounded_as_closely_as_the_limit_asks(keep: str, spare: float) -> None:
-    """The way out bends to the North along a parabola, 6 m at most, and the wall is a radius beyond that."""
+    """The way out bends to the North by 36 x (1 - x)^2 + 9 x^2 (1 - x) at the share x of its time."""
     plain = lines(HOP)
-    ctrl = np.stack([plain.ctrl[:, 0], plain.ctrl.mean(axis=1), plain.ctrl[:, 1]], axis=1)
-    ctrl[1, 1, 1] = 12.0
-    wall = 6.0 + RADIUS_M + spare
+    first, last = plain.ctrl[:, 0], plain.ctrl[:, 1]
+    ctrl = np.stack([first, (2 * first + last) / 3, (first + 2 * last) / 3, last], axis=1)
+    ctrl[1, 1:3, 1] = 12.0, 3.0
+    x = min(np.roots([81.0, -126.0, 36.0]))
+    wall = 36.0 * x * (1 - x) ** 2 + 9.0 * x**2 * (1 - x) + RADIUS_M + spare
     field = Prism(((-9.0, -9.0), (49.0, -9.0), (49.0, wall), (-9.0, wall)), 0.0, 30.0)
     beyond = Prism(((-9.0, wall), (49.0, wall), (49.0, 99.0), (-9.0, 99.0)), 0.0, 30.0)
     mission = plain_mission(**zone(keep, field if keep == "in" else beyond))
