@@ -27,6 +27,7 @@ def test_a_title_gives_a_name(title, name):
     assert file_name(title) == name
 
 
+@pytest.mark.slow
 @given(st.text(min_size=1))
 def test_no_name_leaves_its_folder_or_is_too_long_for_a_file_system(title):
     name = file_name(title)

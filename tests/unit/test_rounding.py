@@ -29,6 +29,7 @@ def test_down_is_up_from_the_other_side(value, digits):
     assert copysign(1.0, down(value, digits) or 0.0) == copysign(1.0, down(value, digits))
 
 
+@pytest.mark.slow
 @given(count=st.integers(-(10**9), 10**9), digits=digits, steps=st.integers(-8, 8))
 def test_a_decimal_stays_itself_though_arithmetic_has_moved_its_last_bits(count, digits, steps):
     exact = float(Decimal(count).scaleb(-digits))

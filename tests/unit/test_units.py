@@ -122,6 +122,7 @@ def test_every_dimension_has_bounds_and_an_example():
         assert SMALLEST[dimension] < parse_quantity(example, dimension) < LARGEST[dimension]
 
 
+@pytest.mark.slow
 @given(DIMENSIONS, st.data())
 def test_every_unit_is_its_factor(dimension, data):
     unit, (times, over) = data.draw(st.sampled_from(list(UNITS[dimension].items())))
@@ -132,6 +133,7 @@ def test_every_unit_is_its_factor(dimension, data):
     assert parse_quantity(f"{number!r}{space}{unit}", dimension) == pytest.approx(number * factor, rel=1e-12)
 
 
+@pytest.mark.slow
 @given(st.sampled_from([d for d in UNITS if d not in ANGULAR]), st.floats(-1000, 1000))
 def test_a_bare_number_is_si(dimension, number):
     base, (_, over) = next((u, scale) for u, scale in UNITS[dimension].items() if scale[0] == 1.0)

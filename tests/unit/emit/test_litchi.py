@@ -47,6 +47,7 @@ def test_the_table_has_46_columns_and_a_row_for_each_point(orbit):
     assert orbit.diagnostics == ()
 
 
+@pytest.mark.slow
 def test_what_is_read_is_what_was_written(orbit):
     data = orbit.artifacts[0].data
     assert write_table(read_table(data)) == data

@@ -53,6 +53,7 @@ def test_a_circle_takes_as_many_legs_as_its_sagitta_asks(allowed: float) -> None
         assert np.linalg.norm(off, axis=1).max() <= allowed
 
 
+@pytest.mark.slow
 def test_legs_follow_one_another_and_cover_the_track() -> None:
     work = thinner(SAMPLE)
     legs = work.legs(Tolerance())

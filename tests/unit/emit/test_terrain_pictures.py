@@ -116,6 +116,7 @@ def _seen(shown: PictureRectangle, fan: Fan) -> tuple[np.ndarray, np.ndarray]:
     return right / forward, -down / forward
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pitch", [0.0, -0.7, -pi / 2])
 def test_a_fan_is_the_ground_and_covers_the_picture(pitch: float) -> None:
     shown = look(pitch, z=60.0, x=0.0)

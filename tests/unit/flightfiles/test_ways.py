@@ -131,6 +131,7 @@ def test_a_landing_elsewhere_and_angles_out_of_reach_are_told() -> None:
     assert codes(verified(("cam1.kmz", dji_file(AROUND, more=tilt)))) == ["V005"]
 
 
+@pytest.mark.slow
 def test_parts_of_one_flight_are_one() -> None:
     whole = verified(("cam1.kmz", dji_file(AROUND)))
     parts = verified(("cam1-2.kmz", dji_file(AROUND[2:])), ("cam1-1.kmz", dji_file(AROUND[:3])))
@@ -139,6 +140,7 @@ def test_parts_of_one_flight_are_one() -> None:
     assert worst[:, 0] == pytest.approx(worst[:, 1])
 
 
+@pytest.mark.slow
 def test_whose_a_file_is() -> None:
     flight = dji_file(AROUND)
     assert verified(("flight.kmz", flight)).holds  # of the only drone

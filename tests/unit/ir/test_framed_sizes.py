@@ -54,6 +54,7 @@ def size_in(text: str) -> float:
     return seen.size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", SCALES)
 def test_a_camera_steps_in_front_of_what_stands_in_its_place(scale: float) -> None:
     """Behind it there is room as well, but the statue would be hidden."""

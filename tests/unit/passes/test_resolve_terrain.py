@@ -52,6 +52,7 @@ def test_what_stands_stands_on_the_terrain(folder):
     assert {round(k.at[2] - ground(120, 60), 9) for k in shot.keyframes} == {25.0}
 
 
+@pytest.mark.slow
 def test_the_ground_is_the_triangles_of_the_posts(folder):
     found = mission(folder)
     points = np.random.default_rng(2).uniform(-MIDDLE + 1, MIDDLE - 1, (200, 3))
@@ -214,6 +215,7 @@ BEYOND = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("right", "wrong", "what", "by"), BEYOND)
 def test_what_counts_from_ground_that_there_is_not_is_told(folder, right, wrong, what, by):
     (folder / "gone.csv").write_text("t,x,y\n0,0,0\n90,310,0\n")

@@ -21,6 +21,7 @@ def test_attitudes_are_those_of_the_camera_model(yaw, pitch):
     assert [float(a[0]) for a in found] == pytest.approx([yaw, pitch, 0.0], abs=1e-12)
 
 
+@pytest.mark.slow
 @given(ANGLES, PITCHES, st.floats(-1.0, 1.0))
 def test_roll_is_read_back(yaw, pitch, roll):
     axes = axes_of(np.array([yaw]), np.array([pitch]))

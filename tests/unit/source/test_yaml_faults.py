@@ -249,6 +249,7 @@ def test_too_many_bytes_and_values() -> None:
     assert fault.kind == "too-many-values"
 
 
+@pytest.mark.slow
 def test_directives_cannot_take_quadratic_time(monkeypatch: pytest.MonkeyPatch) -> None:
     events = read_events(monkeypatch)
     text = "".join(f"%TAG !a{i}! b\n" for i in range(100_000))

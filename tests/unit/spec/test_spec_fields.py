@@ -152,6 +152,7 @@ def test_a_size_with_another_name_is_proposed(written, meant):
     assert caught.value.errors()[0]["ctx"]["help"] == f"did you mean `{meant}`?"
 
 
+@pytest.mark.slow
 @given(st.text(max_size=70))
 def test_an_accepted_name_is_one_safe_file_name(text):
     try:

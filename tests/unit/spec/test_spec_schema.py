@@ -52,6 +52,7 @@ def test_it_is_a_schema_of_the_dialect(document):
     assert json.loads(json.dumps(document)) == document
 
 
+@pytest.mark.slow
 def test_references_and_definitions_match(document):
     used = {
         value.removeprefix("#/$defs/") for _, value in walk(document) if str(value).startswith("#/$defs/")

@@ -172,6 +172,7 @@ def test_ground_of_nothing_is_nowhere():
     assert found.by == np.inf
 
 
+@pytest.mark.slow
 def test_what_meets_too_many_boxes_at_once_is_bound_as_tight(monkeypatch: pytest.MonkeyPatch):
     land = ground(grid(np.random.default_rng(3).normal(size=(64, 64)) * 0.3))
     free = bounds(line((1, 1, 4.5), (60, 50, 4.5)), land)

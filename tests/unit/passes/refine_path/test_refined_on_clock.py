@@ -146,6 +146,7 @@ def test_a_way_that_is_flown_elsewhere_is_a_fault():
     assert "changed the transit" in told[0].message
 
 
+@pytest.mark.slow
 def test_a_refined_leg_that_misses_its_keyframe_is_a_fault():
     curve = leg(path(), "pass").curve
     up = curve.ctrl.copy()

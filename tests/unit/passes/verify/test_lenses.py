@@ -57,6 +57,7 @@ def test_a_zoom_is_planned_within_its_rate_and_proved(rate: float) -> None:
         assert phase.end - phase.start > (degrees(WIDEST) - 30 + 30) / rate
 
 
+@pytest.mark.slow
 def test_a_plan_that_zooms_too_fast_or_beyond_its_lens_is_refused() -> None:
     done = compile_source(ZOOM.replace("RATE", "20 deg/s").encode(), "z.yaml", None, PlanOptions("none"))
     assert done.plan is not None

@@ -238,6 +238,7 @@ def test_a_broken_size_is_told_by_what_is_seen_and_a_range_to_paste() -> None:
     assert found.help.startswith("promise `size: [0.81, 0.95]`")
 
 
+@pytest.mark.slow
 def test_a_range_to_paste_holds_for_both_ends() -> None:
     nearer = with_ctrl(lambda c: c.__setitem__((..., HFOV), c[..., HFOV] * np.linspace(1, 1.1, 6)))
     both = [d for d in promising(Promise(size=(0.78, 0.79)), nearer) if d.code == "V021"]

@@ -51,6 +51,7 @@ def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str
     assert proposed == pytest.approx(read, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_the_help_makes_the_plan_hold() -> None:
     (found,) = verdict_on(with_limits(speed=7.0)).diagnostics
     assert "raise `limits.speed` to 7.855 m/s" in found.help
@@ -60,6 +61,7 @@ def test_the_help_makes_the_plan_hold() -> None:
     assert measure(inf, "m") == "unlimited"
 
 
+@pytest.mark.slow
 def test_help_against_wind_speaks_of_the_written_limit() -> None:
     ir = with_mission(with_limits(speed=7.0), wind=2.25)
     (found,) = verdict_on(ir).diagnostics

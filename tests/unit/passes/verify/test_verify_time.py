@@ -78,6 +78,7 @@ def stepping(order: int, by: float, joints: int) -> TrajectoryIR:
     return with_track(curve=Piecewise(CURVE.breaks, ctrl))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", range(3))
 def test_what_joints_step_by_is_added_up(order: int) -> None:
     joints = JOINTS[order]
@@ -156,6 +157,7 @@ def meets(track: Track) -> TrajectoryIR:
     return with_mission(targets=(*PLAN.keyframes.mission.targets, moving))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by", [1e-9, 1e-11, 1e-13])
 def test_rows_next_to_a_break_count(by: float) -> None:
     k = int(np.searchsorted(CURVE.breaks, 37.0))

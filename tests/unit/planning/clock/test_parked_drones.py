@@ -76,6 +76,7 @@ def test_two_drones_that_do_not_fly_are_no_matter_of_the_plan() -> None:
     assert names == ["separation from cam2", "separation from cam3"]
 
 
+@pytest.mark.slow
 def test_a_parked_drone_is_in_a_picture_and_is_said_to_be_on_its_pad() -> None:
     ir = with_spare((-10.0, 0.0, 20.0), visibility="require")
     fault = next(d for d in verdict_on(ir).diagnostics if d.code == "V025")
@@ -209,6 +210,7 @@ def test_fleets_and_drones_keep_clear_of_the_pads_of_a_fleet_that_shows_nothing(
     assert ("V022" in {d.code for d in verdict_on(film).diagnostics}) is broken
 
 
+@pytest.mark.slow
 def test_a_show_plans_beside_a_fleet_that_shows_nothing() -> None:
     text = """\
 shotc: 1

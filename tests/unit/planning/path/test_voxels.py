@@ -65,6 +65,7 @@ def _ring(half):
     return [(*corners[i], *corners[(i + 1) % 4]) for i in range(4)]
 
 
+@pytest.mark.slow
 def test_a_way_keeps_clear_of_zones_beside_meshes():
     zone = Zone("mast", "out", Cylinder((0.0, 7.0), 5.0, 0.0, 40.0), ("world", "zones", "mast"))
     tree = Obstacle(zone_owner(zone), zone.solid, 0.3)

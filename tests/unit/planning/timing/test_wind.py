@@ -60,6 +60,7 @@ def test_a_pace_in_wind_is_within_the_limits(
         assert np.hypot(*(velocity / used - wind)) <= CEILING.speed * (1 + 1e-6)
 
 
+@pytest.mark.slow
 @given(WIND, st.floats(-pi, pi))
 def test_the_speed_along_a_way_is_the_largest_that_the_airspeed_allows(
     wind: tuple[float, float], course: float

@@ -179,6 +179,7 @@ def test_the_same_plan_gives_the_same_bytes() -> None:
     assert EMITTER.emit(show_flights.plan()).artifacts == EMITTER.emit(show_flights.plan()).artifacts
 
 
+@pytest.mark.slow
 def test_without_an_origin_the_show_has_no_place() -> None:
     plan = show_flights.plan(show_flights.mission(origin=None))
     assert [d.code for d in EMITTER.emit(plan).diagnostics] == ["E111"]

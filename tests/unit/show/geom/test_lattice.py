@@ -53,6 +53,7 @@ def test_as_many_places_are_in_a_ball_as_the_closed_form_says(upright: bool) -> 
     assert widest(mould, held + 200, 1.0) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("upright", [False, True])
 @pytest.mark.parametrize("count", [2, 3, 4])
 def test_layers_are_apart_in_space_and_denser_to_the_eye(count: int, upright: bool) -> None:
