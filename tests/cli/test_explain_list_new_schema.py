@@ -113,6 +113,7 @@ def test_an_unknown_heading_method_names_the_known_ones(run: Run) -> None:
     assert "winding" in done.err
 
 
+@pytest.mark.slow
 def test_help_of_plan_names_the_passes(run: Run) -> None:
     out = run("plan", "--help").out
     assert all(name in out for name in PASS_NAMES)

@@ -22,6 +22,7 @@ def test_version_is_one_line(run: Run) -> None:
     assert run("--version").out == f"shotc {__version__}\n"
 
 
+@pytest.mark.slow
 def test_help_teaches(run: Run) -> None:
     result = run("--help")
     assert result.code == 0

@@ -80,6 +80,7 @@ def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return folder
 
 
+@pytest.mark.slow
 def test_it_flies_and_shines_as_the_table_says(folder: Path) -> None:
     table = csv_tables.read((folder / "out" / "trajectory.csv").read_bytes())
     flights = {str(name): table.where(drone=name) for name in dict.fromkeys(table["drone"].tolist())}

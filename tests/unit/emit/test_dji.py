@@ -30,6 +30,8 @@ from tests.support.film_plans import TOWER, orbit_mission, orbit_plan
 from tests.support.mavlink_flights import flight, plan, retold, straight
 from tests.support.records import replace
 
+pytestmark = pytest.mark.slow  # one plan is written in all forms
+
 FLY = [  # of a point in DJI Fly, in the order of the app
     "Point", "index", "executeHeight", "waypointSpeed", "waypointHeadingParam", "waypointTurnParam",
     "useStraightLine", "actionGroup", "waypointGimbalHeadingParam",

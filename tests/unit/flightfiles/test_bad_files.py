@@ -169,6 +169,7 @@ def test_each_is_told_with_its_line(name: str) -> None:
     assert report.certificate == ()
 
 
+@pytest.mark.slow
 def test_the_good_ones_are_good() -> None:
     assert [name for name, data in GOOD.items() if not verified((name, data)).holds] == []
 
@@ -200,6 +201,7 @@ def test_no_bytes_make_a_traceback(name: str, data: st.DataObject) -> None:
     assert all(d.labels and d.message for d in report.diagnostics)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(data=st.binary(max_size=300), name=st.sampled_from(sorted(GOOD)))
 def test_any_bytes_are_refused(data: bytes, name: str) -> None:

@@ -18,6 +18,7 @@ TEXT = FLEET.format(zones="", limits="{speed: 8, climb: 3, descent: 3, accelerat
 PADS = ((0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (4.0, 4.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("height", "holds"), [(46.0, True), (30.0, False)])
 def test_a_fleet_is_held_above_terrain(tmp_path: Path, height: float, holds: bool) -> None:
     # A plain, and from 40 m East on a plateau 40 m above it.

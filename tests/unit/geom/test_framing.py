@@ -113,6 +113,7 @@ def test_what_hides_and_what_does_not() -> None:
     ]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=80)
 @given(st.integers(0, 10_000))
 def test_margins_change_no_faster_than_their_bound(seed: int) -> None:

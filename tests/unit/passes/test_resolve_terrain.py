@@ -61,6 +61,7 @@ def test_the_ground_is_the_triangles_of_the_posts(folder):
     assert ground_heights(found, points[:, :2]) == pytest.approx(np.array(heights))
 
 
+@pytest.mark.slow
 def test_a_zone_over_the_ground_is_no_smaller_than_what_is_meant_and_a_fence_no_larger(folder):
     wood = mission(folder).zones[0].solid
     turn, share = np.meshgrid(np.linspace(0, 2 * np.pi, 60), np.linspace(0, 1, 20))

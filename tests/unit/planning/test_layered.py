@@ -77,6 +77,7 @@ def watched(place, surface, **changes):
     return replace(VisibleSubject(places, np.ones(len(TIMES), dtype=bool), 0.4, 1.8, (surface,)), **changes)
 
 
+@pytest.mark.slow
 def test_a_course_is_led_to_where_its_subject_is_not_hidden():
     made = turned(house(3.0, 3.0, 9.0, 10.0), 0.0, (0.0, 7.0))
     space = space_of(made)
@@ -100,6 +101,7 @@ def test_what_belongs_to_its_subject_does_not_hide_it():
     assert itself.hidden(STRAIGHT[:, None]).max() == 0.0
 
 
+@pytest.mark.slow
 def test_a_course_that_is_held_stays_where_it_is_free():
     made = turned(house(3.0, 3.0, 9.0, 10.0), 0.0, (0.0, 7.0))
     space = space_of(made)

@@ -35,6 +35,7 @@ def strays(document: Document) -> list[Span]:
     return [span for span in spans if not lies_in(span, document.file)]
 
 
+@pytest.mark.slow
 @given(st.binary(max_size=200))
 @example(b"\xef\xbb\xbf")
 @example(b"\xff\xfe")

@@ -61,6 +61,7 @@ def test_references_and_definitions_match(document):
     assert not any(key in {"$shared", "$of", "$model"} for path, _ in walk(document) for key in path)
 
 
+@pytest.mark.slow
 def test_every_key_is_described(document):
     for name, definition in (("mission", document), *document["$defs"].items()):
         for key, field in definition.get("properties", {}).items():

@@ -64,6 +64,7 @@ BREACHES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BREACHES)
 def test_a_breach_names_the_shot_the_place_and_what_it_is_against(name):
     act, code, what, line = BREACHES[name]

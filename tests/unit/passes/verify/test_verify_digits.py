@@ -96,6 +96,7 @@ def test_a_limit_of_nothing_asks_for_no_endless_shot() -> None:
     assert found.help.startswith("raise `limits.speed` to ")
 
 
+@pytest.mark.slow
 @given(st.floats(-1e3, 1e3), st.floats(1e-6, 1.0), st.sampled_from(["m", "m/s", "rad", "of samples"]))
 def test_values_that_differ_look_different(value: float, by: float, unit: str) -> None:
     one, other = distinct_measures(value, value + by, unit)

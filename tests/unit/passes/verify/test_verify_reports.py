@@ -43,6 +43,7 @@ def test_missing_values_are_told_without_numbers() -> None:
     assert claim(ir, "distance from keyframes").worst == inf
 
 
+@pytest.mark.slow
 @given(st.floats(1e-9, 1e6), st.booleans(), st.sampled_from(["m/s", "rad", "of samples", "m"]))
 def test_a_proposed_limit_is_one_that_holds(worst: float, upper: bool, unit: str) -> None:
     proposed = float(enough(replace(SPEED, worst=worst, upper=upper, unit=unit)).split()[0])

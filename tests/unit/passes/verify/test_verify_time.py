@@ -94,6 +94,7 @@ def test_what_joints_step_by_is_added_up(order: int) -> None:
     assert broken.unit == "m" + joints.unit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("order", "most"), [(0, 1e-6), (1, 1e-6), (2, 1e-4)])
 def test_what_may_be_rounded_away_is_an_absolute_amount(order: int, most: float) -> None:
     # Whatever the size of the flight: a kilometre away it is the same.

@@ -63,6 +63,7 @@ def plan(tmp_path_factory: pytest.TempPathFactory) -> VerifiedIR:
     return found
 
 
+@pytest.mark.slow
 def test_every_drone_stands_on_the_beat(plan: VerifiedIR) -> None:
     flight = plan.trajectory.fleets[0]
     assert [shown.start for shown in flight.shown] == pytest.approx([35.25, 51.125, 65.0], abs=1e-6)
@@ -120,6 +121,7 @@ def test_a_song_that_ends_early_or_cannot_be_read_is_told(
         assert "4.00 s before" in told[0].message
 
 
+@pytest.mark.slow
 @given(st.binary(max_size=300))
 def test_any_bytes_are_beats_or_a_fault(data: bytes) -> None:
     found = read_beats(data)

@@ -142,6 +142,7 @@ def test_what_is_said_of_the_show() -> None:
     assert names[-1] == "swarm-60"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "eye", [(0.0, -50.0, 2.0), (80.0, 60.0, 40.0), (5.0, 160.0, 1.0), (-70.0, 0.0, 90.0), None]
 )
