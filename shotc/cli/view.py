@@ -37,7 +37,8 @@ def view(what: What) -> None:
     if fault is not None:
         console.report([fault], {})
         raise typer.Exit(console.EXIT_REJECTED)
-    plan = proved(Path(what)) if (Path(what).is_dir() or what.lower().endswith(".json")) else _planned(what)
+    is_plan = Path(what).is_dir() or what.lower().endswith(".json")
+    plan = proved(Path(what)) if is_plan else _planned(what)
     emitted = emit_plan(plan, ["rerun"])
     recording = next((a for a in emitted.artifacts if a.name == "mission.rrd"), None)
     console.report(emitted.diagnostics, {})

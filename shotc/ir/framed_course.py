@@ -39,6 +39,11 @@ class StartedFraming(NamedTuple):
         return shows(self.blocked, self.lost)
 
 
+def eyes_of(times: Sequence[float], poses: Sequence[Pose]) -> list[tuple[float, Vec3]]:
+    """Return times, seconds, with the positions of the poses then, W, metres."""
+    return [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
+
+
 def shows(blocked: float, lost: float) -> bool:
     """Return whether a camera has room somewhere on its course, and no subject is hidden in most frames.
 

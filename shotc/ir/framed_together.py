@@ -20,7 +20,7 @@ from shotc.geom.viewpoint import (
     middle_of,
     viewpoint,
 )
-from shotc.ir.framed_course import StartedFraming, at_place, evenly, places_of, shows
+from shotc.ir.framed_course import StartedFraming, at_place, evenly, eyes_of, places_of, shows
 from shotc.ir.framed_scene import FramedScene
 from shotc.ir.mission import Subject
 
@@ -53,8 +53,8 @@ def _course(scene: FramedScene) -> StartedFraming:
     opening = _opening(scene)
     poses, subjects = _follow(scene, opening, scene.times), opening.subjects
     lead = scene.mission.target(subjects[0].target)
-    points = evenly([minus((p[0], p[1], p[2]), lead.at(t)) for t, p in zip(scene.times, poses, strict=True)])
-    eyes = _eyes(scene.times, poses)
+    eyes = eyes_of(scene.times, poses)
+    points = evenly([minus(eye, lead.at(t)) for t, eye in eyes])
     blocked, hidden = scene.shares(eyes)
     framed = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
     return StartedFraming(framed, scene.times, poses, blocked, hidden, scene.lost(eyes), shot)
@@ -119,7 +119,7 @@ def _openings(scene: FramedScene) -> list[_FirstPose]:
 
 def _shows(scene: FramedScene, opening: _FirstPose) -> bool:
     """Return whether an opening shows all subjects, and its course as well."""
-    if scene.lost(_eyes((scene.start,), (opening.pose,))) > 0.0:
+    if scene.lost(eyes_of((scene.start,), (opening.pose,))) > 0.0:
         return False  # computing a course costs more than an opening
     eyes = _sampled(scene, opening)
     return shows(scene.blocked(eyes), scene.lost(eyes))
@@ -134,11 +134,7 @@ def _score(scene: FramedScene, opening: _FirstPose) -> tuple[float, float]:
 def _sampled(scene: FramedScene, opening: _FirstPose) -> list[tuple[float, Vec3]]:
     """Return some times and positions of the course after an opening."""
     times = scene.times[:: max(1, len(scene.times) // 6)]
-    return _eyes(times, _follow(scene, opening, times))
-
-
-def _eyes(times: Sequence[float], poses: Sequence[Pose]) -> list[tuple[float, Vec3]]:
-    return [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
+    return eyes_of(times, _follow(scene, opening, times))
 
 
 def _polished(scene: FramedScene, opening: _FirstPose) -> _FirstPose:

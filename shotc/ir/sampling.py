@@ -40,6 +40,12 @@ def ticks(rate: float, start: float, end: float) -> Array:
     return np.concatenate([[start], inside, [end]])
 
 
+def ticks_inside(rate: float, start: float, end: float) -> Array:
+    """Return the ticks k / rate that lie between two times, seconds, without these, (M,)."""
+    times = clock(rate, end)
+    return times[(times > start) & (times < end)]
+
+
 def share_of_frames(good: Mask, counted: Mask) -> float:
     """Return the share of samples that are good, shape (M,), 0 to 1.
 

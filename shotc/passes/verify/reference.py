@@ -20,7 +20,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.promise import Promise
-from shotc.ir.sampling import clock, framed, references
+from shotc.ir.sampling import framed, references, ticks_inside
 from shotc.ir.tolerances import OFF_LINE_HALF_FRAMES
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
@@ -95,8 +95,7 @@ def _in_changes(flight: JudgedFlight, placed: PlacedShot, times: dict[int, float
     """
     for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
         start, end = times[i] + a.hold, times[j]
-        ticks = clock(flight.mission.rate, end)
-        inside = ticks[(ticks > start) & (ticks < end)]
+        inside = ticks_inside(flight.mission.rate, start, end)
         if a.target is None or b.target is None or a.target == b.target or not len(inside):
             continue
         if dist(a.at, b.at) > SAME_PLACE_M:
@@ -114,8 +113,8 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
     references.
     """
     shot = placed.shot
-    ticks = clock(flight.mission.rate, phase.end)
-    t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
+    inside = ticks_inside(flight.mission.rate, phase.start, phase.end)
+    t = np.union1d(inside, [phase.start, phase.end])
     missing, off, when = 0.0, 0.0, phase.start
     for subject in placed.subjects:
         missing += float((~framed(flight.track, shot.id, subject.target, t)).sum())
@@ -177,8 +176,7 @@ class _SampledLeg(NamedTuple):
 
 def _sampled(flight: JudgedFlight, legs: Iterator[_KeyframedSpan]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
-        ticks = clock(flight.mission.rate, end)
-        inside = ticks[(ticks > start) & (ticks < end)]
+        inside = ticks_inside(flight.mission.rate, start, end)
         yield _SampledLeg(
             np.concatenate([[start], inside, [end]]) if end > start else np.array([start]), a, b
         )

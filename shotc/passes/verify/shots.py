@@ -16,7 +16,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV, Z
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import clock
+from shotc.ir.sampling import ticks_inside
 from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
@@ -98,8 +98,8 @@ def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> 
     """Yield the claim that a shot on its own clock leaves its ideal only as far as reported and explained."""
     if shot.ideal is None:
         return
-    ticks = clock(flight.mission.rate, phase.end)
-    t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
+    inside = ticks_inside(flight.mission.rate, phase.start, phase.end)
+    t = np.union1d(inside, [phase.start, phase.end])
     begun = at_start(flight.mission, shot, phase.start)
     ideal = np.array([ideal_place(flight.mission, begun, phase.start, float(u)) for u in t])
     deviation = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)

@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
-from math import cos, inf, pi
+from math import inf
 
 import numpy as np
 import pytest
 
-from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 from shotc.geom.vec import Vec3
-from shotc.ir.drone import LensRange
-from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
+from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import Zone
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathDeviation
+from shotc.ir.path import PathDeviation
 from shotc.ir.phases import KeyframeTime
 from shotc.ir.preference import PICTURE_SHARE
 from shotc.ir.target import Target
-from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.course import course
+from tests.support.plain_courses import AIM, BOTH, LENS, TURN, Way, judged
 from tests.support.plain_flights import EAST, HOP, PHASES, WEST, lines, plain_mission
 from tests.support.plain_flights import plain_keyframe as keyframe
 from tests.support.plain_flights import plain_shot as shot
 from tests.support.records import replace
 
-Way = tuple[tuple[float, Vec3], ...]
 MIDDLE = (20.0, 0.0, 10.0)
-BOTH = (keyframe(WEST), keyframe(EAST))
 GENERATED = (keyframe(WEST, placed=False), keyframe(EAST, placed=False))
 MAST = Target("mast", (20.0, 100.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "mast"))
 ORDER, PATH, ENDS, DETOUR, WAY = (
@@ -38,24 +35,6 @@ ORDER, PATH, ENDS, DETOUR, WAY = (
     "detour where it is free",
     "way between keyframes",
 )
-
-
-def judged(
-    placed: PlacedShot,
-    *,
-    way: Way = HOP,
-    curve: Piecewise | None = None,
-    met: tuple[tuple[int, float], ...] = ((0, 4.0), (1, 14.0)),
-    told: tuple[PathDeviation, ...] = (),
-    lens: LensRange | None = None,
-    **world: object,
-) -> dict[str, Claim]:
-    mission = plain_mission(**world)
-    mission = replace(mission, drones=(replace(mission.drones[0], lens=lens),))
-    reached = tuple(KeyframeTime("out", i, t) for i, t in met)
-    track = DroneTrajectory("cam1", lines(way) if curve is None else curve, PHASES, reached, ())
-    ir = TrajectoryIR(KeyframeIR(mission, (placed,)), (track,), told, ())
-    return {c.constraint: c for c in course(JudgedFlight(mission, mission.drones[0], track), ir)}
 
 
 def through(*places: tuple[float, Vec3]) -> Way:
@@ -240,73 +219,6 @@ def test_beside_a_longer_way_a_short_one_may_swing_as_far_and_holds_do_not_count
     assert claim.worst == pytest.approx(15.0, abs=1e-3)
     assert claim.limit == pytest.approx(0.5 * 36.0 + 0.25)
     assert claim.time == pytest.approx(12.0, abs=0.01)
-
-
-def turned(channel: int, by: float, time: float = 14.0) -> Piecewise:
-    """The hop with another value of a channel at one of its times."""
-    plain = lines(HOP)
-    k = int(np.searchsorted(plain.breaks, time))
-    ctrl = plain.ctrl.copy()
-    ctrl[k - 1, -1, channel] += by
-    ctrl[k, 0, channel] += by
-    return Piecewise(plain.breaks, ctrl)
-
-
-LENS, AIM, TURN = "lens off its keyframes", "direction off its keyframes", "turn off its keyframes"
-
-
-@pytest.mark.parametrize("time", [4.0, 14.0])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(("off", "holds"), [(0.99e-3, True), (1.01e-3, False)])
-def test_the_lens_is_that_of_the_keyframe(time: float, sign: float, off: float, holds: bool) -> None:
-    claim = judged(shot(*BOTH), curve=turned(HFOV, sign * off, time))[LENS]
-    assert (claim.worst, claim.limit) == (pytest.approx(off), 1e-3)
-    assert (claim.holds, claim.time) == (holds, time)
-
-
-def test_a_zoom_that_nobody_asked_for_is_free() -> None:
-    """The generated keyframe has the lens's own field of view, the placed one what its author chose."""
-    own = plain_mission().drones[0].hfov
-    zoom = LensRange(0.3, 1.4, 1.0)
-    for placed, expected in ((False, 0.0), (True, abs(1.2 - own))):
-        asked = tuple(keyframe(at, placed=placed, hfov=own) for at in (WEST, EAST))
-        assert judged(shot(*asked), lens=zoom)[LENS].worst == pytest.approx(expected, abs=1e-9)
-        assert judged(shot(*asked))[LENS].worst == pytest.approx(abs(1.2 - own), abs=1e-9)
-
-
-@pytest.mark.parametrize("channel", [CAM_YAW, CAM_PITCH])
-@pytest.mark.parametrize("turns", [0, 1, -2])
-@pytest.mark.parametrize(("off", "holds"), [(0.199, True), (-0.199, True), (0.201, False), (-0.201, False)])
-def test_a_camera_that_frames_nothing_looks_as_asked(
-    channel: int, turns: int, off: float, holds: bool
-) -> None:
-    by = off + 2 * pi * turns * (channel == CAM_YAW)
-    claim = judged(shot(*BOTH), curve=turned(channel, by))[AIM]
-    assert claim.worst == pytest.approx(abs(off))
-    assert (claim.limit, claim.holds, claim.time) == (0.2, holds, 14.0)
-    framed = tuple(k._replace(reference=(0.0, 0.0)) for k in BOTH)
-    assert judged(shot(*framed), curve=turned(channel, by))[AIM].worst == 0.0
-
-
-def test_straight_down_the_heading_counts_less() -> None:
-    steep = tuple(k._replace(pitch=-1.2) for k in BOTH)
-    curve = turned(CAM_PITCH, -1.2)
-    ctrl = curve.ctrl.copy()
-    ctrl[..., CAM_PITCH] = -1.2
-    ctrl[1, -1, CAM_YAW] = ctrl[2, 0, CAM_YAW] = 0.4
-    claim = judged(shot(*steep), curve=Piecewise(curve.breaks, ctrl))[AIM]
-    assert claim.worst == pytest.approx(0.4 * cos(1.2))
-
-
-@pytest.mark.parametrize(
-    ("by", "holds"), [(2.0 - 1.57, True), (2.0 - 1.58, False), (2.0 + 1.57, True), (2.0 + 1.58, False)]
-)
-def test_a_stated_turn_is_flown_to_a_quarter_of_a_turn(by: float, holds: bool) -> None:
-    stated: tuple[PlacedKeyframe, ...] = (BOTH[0], BOTH[1]._replace(turn=2.0, yaw=by))
-    claim = judged(shot(*stated), curve=turned(CAM_YAW, by))[TURN]
-    assert claim.worst == pytest.approx(abs(by - 2.0))
-    assert (claim.limit, claim.holds) == (pytest.approx(pi / 2), holds)
-    assert judged(shot(*BOTH), curve=turned(CAM_YAW, by))[TURN].worst == 0.0
 
 
 def test_every_shot_of_the_drone_is_judged_whatever_stands_before_it() -> None:

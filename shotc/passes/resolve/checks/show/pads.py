@@ -21,10 +21,8 @@ from shotc.rounding import at_least, up
 from shotc.show.labels import pads_path, wider
 
 UNEVEN_M = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
-FARTHEST_M, MANY_DRONES = (
-    60,
-    400,
-)  # largest distance of the search for a free place, metres, and most drones for it
+FARTHEST_M = 60  # largest distance of the search for a free place, metres
+MANY_DRONES = 400  # most drones for which a free place is searched for
 
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
