@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 
 def outages(mission: MissionIR, lost: Sequence[str]) -> tuple[Outage, ...]:
-    """Return the outages of options written FROM:TO or NAME=FROM:TO, seconds."""
+    """Return the outages of options written FROM:TO or NAME=FROM:TO, seconds.
+
+    Raise a usage error for another text.
+    """
     return tuple(_outage(mission, each) for each in lost)
 
 
@@ -47,7 +50,11 @@ def _outage(mission: MissionIR, text: str) -> Outage:
 def true_tracks(
     mission: MissionIR, sources: dict[str, SourceFile], written: Sequence[str]
 ) -> tuple[tuple[str, Track], ...]:
-    """Return the tracks of options written TARGET=FILE. If a file cannot be read, report why and exit."""
+    """Return the tracks of options written TARGET=FILE.
+
+    Raise a usage error for another text, or if there is no such file. If a file cannot be read, report
+    why and exit.
+    """
     return tuple(_true_track(mission, sources, each) for each in written)
 
 

@@ -34,7 +34,7 @@ class WeightType(FieldType):
     label = "ViewpointWeight"
 
     def read(self, value: Any) -> float:
-        """Return the number."""
+        """Return the number. Raise a fault unless it is 0 or more."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             help_ = "write 0 for the best picture from the viewpoint, .inf for the best volume"
             raise fault("wrong-type", f"expected a number, got {describe(value)}", help_)

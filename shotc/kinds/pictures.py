@@ -204,7 +204,10 @@ class FramesType(FieldType):
     label = "Frames"
 
     def read(self, value: Any) -> "FilesSpec | FlightSpec | tuple[PictureSpec, ...]":
-        """Return the pictures, the one animation, or the flight."""
+        """Return the pictures, the one animation, or the flight.
+
+        Raise a fault for anything else, for no picture and for too many.
+        """
         if isinstance(value, dict):
             return (FlightSpec if "flight" in value else FilesSpec).model_validate(value)
         if not isinstance(value, list):

@@ -54,7 +54,7 @@ class HexColorType(FieldType):
     label = "HexColor"
 
     def read(self, value: Any) -> Color:
-        """Return (red, green, blue), 0 to 255 each."""
+        """Return (red, green, blue), 0 to 255 each. Raise a fault unless it is a hexadecimal colour."""
         if not isinstance(value, str):
             raise fault("wrong-type", f"expected a colour, got {describe(value)}", _HINT)
         if re.fullmatch(_PATTERN, value) is None:

@@ -20,7 +20,7 @@ class NumbersType(FieldType):
     label = "DroneNumbers"
 
     def read(self, value: Any) -> tuple[int, ...]:
-        """Return all numbers, each once."""
+        """Return all numbers, each once. Raise a fault for none, or for a number that is given twice."""
         named: set[int] = set()
         for item in value if isinstance(value, list) else [value]:
             numbers = _span(item)

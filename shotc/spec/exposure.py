@@ -35,7 +35,7 @@ class ApertureType(FieldType):
     label = "Aperture"
 
     def read(self, value: Any) -> float:
-        """Return the f-number."""
+        """Return the f-number. Raise a fault unless it is one of a lens."""
         written = _APERTURE.fullmatch(value) if isinstance(value, str) else None
         if isinstance(value, bool) or not (written or isinstance(value, int | float)):
             raise fault("wrong-type", f"expected an aperture, got {describe(value)}", "write it as `f/2.8`")
@@ -64,8 +64,9 @@ class FocusType(FieldType):
     _distance = Quantity("FocusDistance", "length", 0.1, 1e5, noun="distance of focus")
 
     def read(self, value: Any) -> str | float:
-        """Return the name, or the distance along the camera's axis, m; text that is a valid length is a
-        distance.
+        """Return the name, or the distance along the camera's axis, m.
+
+        Text that is a valid length is a distance. Raise a fault unless the value is a name or a distance.
         """
         try:
             parse_quantity(value, "length")
@@ -116,7 +117,7 @@ class ShutterType(FieldType):
     label = "Shutter"
 
     def read(self, value: Any) -> float:
-        """Return the time, s."""
+        """Return the time, s. Raise a fault unless it is a time of exposure of a film."""
         fraction = _FRACTION.fullmatch(value) if isinstance(value, str) else None
         try:
             seconds = _share(fraction) if fraction else parse_quantity(value, "duration")

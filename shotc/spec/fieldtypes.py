@@ -57,7 +57,7 @@ class Integer(FieldType):
         self.high = high
 
     def read(self, value: Any) -> int:
-        """Return the number; 3.0 is valid too."""
+        """Return the number; 3.0 is valid too. Raise a fault if it is not whole, or out of range."""
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:
             raise fault("wrong-type", f"expected a whole number, got {describe(value)}")
         if not self.low <= value <= self.high:
@@ -88,7 +88,7 @@ class Text(FieldType):
         self.rule = rule
 
     def read(self, value: Any) -> str:
-        """Return the text."""
+        """Return the text. Raise a fault unless the pattern fits."""
         if not isinstance(value, str):
             raise fault("wrong-type", f"expected text, got {describe(value)}", self.rule)
         if re.fullmatch(self.pattern, value) is None:
@@ -137,7 +137,7 @@ class Hinted(FieldType):
         self.help = help
 
     def read(self, value: Any) -> Any:
-        """Return the value as the other type reads it."""
+        """Return the value as the other type reads it, or raise its fault, with the help for a slip."""
         try:
             return self.of.read(value)
         except PydanticCustomError as error:
@@ -172,7 +172,7 @@ class NamedOr(FieldType):
         self.listed = f" (`{all_by}` shows all)" if all_by else ""
 
     def read(self, value: Any) -> Any:
-        """Return the table's entry, or the value as ``other`` reads it."""
+        """Return the table's entry, or the value as ``other`` reads it. Raise a fault for an unknown name."""
         if isinstance(value, str) and (self.other is None or value[:1].isalpha()):
             if value not in self.named:
                 help_ = nearest(value, self.named) + self.listed

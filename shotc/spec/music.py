@@ -28,7 +28,7 @@ class NumberType(FieldType):
         self.noun = noun
 
     def read(self, value: Any) -> float:
-        """Return the number."""
+        """Return the number. Raise a fault if it is out of range."""
         bounds = f"give {self.low:g} to {self.high:g}"
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise fault("wrong-type", f"expected a number, {self.noun}, got {describe(value)}", bounds)

@@ -53,7 +53,7 @@ class DegreesType(FieldType):
         self.limit = limit
 
     def read(self, value: Any) -> float:
-        """Return the number, within plus or minus ``limit``."""
+        """Return the number. Raise a fault unless it is within plus or minus ``limit``."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise fault(
                 "wrong-type",
@@ -106,7 +106,7 @@ class PlanType(PlaceType):
     label = "Plan"
 
     def read(self, value: Any) -> Vec2 | OnMap:
-        """Return x and y of W in metres, or a geographic place."""
+        """Return x and y of W in metres, or a geographic place. Raise a fault for anything else."""
         if isinstance(value, dict | OnMap):
             return OnMap.model_validate(value)
         if not isinstance(value, list | tuple):
@@ -129,7 +129,7 @@ class PositionType(PlaceType):
     label = "Position"
 
     def read(self, value: Any) -> Spot | Geodetic:
-        """Return a point of W in metres, or a geodetic place."""
+        """Return a point of W in metres, or a geodetic place. Raise a fault for anything else."""
         if isinstance(value, dict | Geodetic):
             return Geodetic.model_validate(value)
         if not isinstance(value, list | tuple):
@@ -188,7 +188,10 @@ class StationType(PlaceType):
     label = "Station"
 
     def read(self, value: Any) -> Spot | Geodetic | Relative:
-        """Return a point of W in metres, a geodetic place, or one relative to a target."""
+        """Return a point of W in metres, a geodetic place, or one relative to a target.
+
+        Raise a fault for anything else.
+        """
         if isinstance(value, Relative) or (isinstance(value, dict) and value.keys() & Relative.keys().keys()):
             return Relative.model_validate(value)
         if isinstance(value, list | tuple | dict | Geodetic):
@@ -212,7 +215,7 @@ class LookAtType(PlaceType):
     label = "LookAt"
 
     def read(self, value: Any) -> str | Spot | Geodetic:
-        """Return a target's name or a position."""
+        """Return a target's name or a position. Raise a fault for anything else."""
         if not isinstance(value, str):
             return STAND.read(value)
         try:

@@ -64,7 +64,10 @@ def _again(item: Any) -> PydanticCustomError:
 
 
 def read_each(readers: Iterable[tuple[Loc, Callable[[], T]]]) -> list[T]:
-    """Return the results of all readers; raise the faults of all of them together, each at its place."""
+    """Return the results of all readers.
+
+    Raise the faults of all of them as one ValidationError, each at its place.
+    """
     values: list[T] = []
     details: list[InitErrorDetails] = []
     for loc, reader in readers:

@@ -52,7 +52,7 @@ class Quantity(FieldType):
         self.noun = noun
 
     def read(self, value: Any) -> float:
-        """Return the value in SI."""
+        """Return the value in SI. Raise a fault for a wrong unit, or a value out of bounds."""
         try:
             number = parse_quantity(value, self.dimension)
         except QuantityError as error:
@@ -138,7 +138,7 @@ class Tuple(FieldType):
         self.hint = hint or f"write {shape}"
 
     def read(self, value: Any) -> tuple[Any, ...]:
-        """Return the items, each read by its type."""
+        """Return the items, each read by its type. Raise a fault for another number of items."""
         if not isinstance(value, list | tuple):
             raise fault("wrong-type", f"expected a list {self.shape}, got {describe(value)}", _apart(value))
         if len(value) != len(self.items):
@@ -167,7 +167,7 @@ class Range(FieldType):
         self.thick = thick
 
     def read(self, value: Any) -> tuple[float, float]:
-        """Return (lowest, highest) in SI."""
+        """Return (lowest, highest) in SI. Raise a fault if it is inverted, or empty where ``thick``."""
         low, high = self._pair.read(value)
         if low < high or (low == high and not self.thick):
             return (low, high)
@@ -199,7 +199,7 @@ class QuantitySpan(FieldType):
         self.item = item
 
     def read(self, value: Any) -> tuple[float, float]:
-        """Return (from, to) in SI; a single value gives equal ends."""
+        """Return (from, to) in SI; a single value gives equal ends. Raise a fault for text as 40-65 m."""
         if isinstance(value, list):
             first, last = Tuple(self.label, (self.item, self.item), "[from, to]").read(value)
             return (first, last)

@@ -44,7 +44,7 @@ class OwnPointsType(FieldType):
     label = "ScreenPoints"
 
     def read(self, value: Any) -> Composition:
-        """Return the composition of these points."""
+        """Return the composition of these points. Raise a fault unless it is a list of points."""
         if not isinstance(value, list) or not any(isinstance(item, list) for item in value):
             raise fault(
                 "wrong-type",
@@ -97,7 +97,7 @@ class AspectType(FieldType):
     label = "Aspect"
 
     def read(self, value: Any) -> float:
-        """Return width / height, from 0.2 to 5."""
+        """Return width / height. Raise a fault unless it is from 0.2 to 5."""
         if not isinstance(value, str) or value.strip()[-1:] == "%":
             return _RATIO.read(value)
         width, height = (_side(part) for part in (value if value.count(":") == 1 else "0:0").split(":"))

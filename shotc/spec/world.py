@@ -213,7 +213,7 @@ class SceneSpec(Model):
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Refuse a bare path, because it has no units; return other values as they are."""
+        """Return the value. Raise a fault for a bare path, because it has no units."""
         units = "" if str(data).lower().endswith(".glb") else ", units: m"
         return _no_path(data, "scene", units)
 
@@ -228,7 +228,7 @@ class BuildingsSpec(Model):
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Refuse a bare path; return other values as they are."""
+        """Return the value. Raise a fault for a bare path."""
         return _no_path(data, "buildings", "")
 
 

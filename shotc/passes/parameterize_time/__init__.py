@@ -47,7 +47,8 @@ class ParameterizeTime:
     def run(self, ir: PathIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
         """Time every leg of every drone.
 
-        A shot that waits for one of another drone is timed after it, so the drones alternate.
+        A shot that waits for one of another drone is timed after it, so the drones alternate. Raises
+        ValueError if shots wait for each other in a circle, which ``check`` refuses.
         """
         paths: tuple[DronePath | TimedPath, ...] = (*ir.drones, *ir.timed)
         pilots = [_LegTimer(ir.keyframes.mission, path, ctx) for path in paths]
