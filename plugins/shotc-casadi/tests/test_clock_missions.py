@@ -131,7 +131,22 @@ def test_whatever_is_drawn_is_refined_where_its_guide_can_be_flown(seeds: range,
         assert not [d for d in ours.diagnostics if d.code[0] == "R" or has_errors([d])]
         before, after = (path(ours, step).timed[0].legs for step in ("solve-path-qp", "refine-path"))
         ((old, new),) = (pair for pair in zip(before, after, strict=True) if pair[0].shot == "s")
-        assert turned(new) <= 1.05 * turned(old) + 1e-3, text
+        if looks_past(ours):
+            assert visible(ours) > visible(compiled(text, "none")), text
+        else:
+            assert turned(new) <= 1.05 * turned(old) + 1e-3, text
+
+
+def looks_past(done: Compilation) -> bool:
+    """Whether the camera leaves its place for what would hide its subject."""
+    assert done.plan is not None
+    return any("hide" in deviation.cause for deviation in done.plan.trajectory.deviations)
+
+
+def visible(done: Compilation) -> float:
+    """The share of frames in which the runner is visible."""
+    assert done.plan is not None
+    return next(c.worst for c in done.plan.certificate if c.constraint == "runner visible")
 
 
 def turned(leg: ClockLeg) -> float:

@@ -83,6 +83,15 @@ def drawn(seed: int) -> tuple[Occluder, np.ndarray, np.ndarray]:
     return Occluder(scale, np.tile(rng.uniform(-1, 1, 3), (400, 1))), eyes, points
 
 
+def corners_of(part: Cylinder | Prism) -> np.ndarray:
+    if isinstance(part, Cylinder):
+        turn = np.linspace(0.0, 2 * np.pi, 24)
+        rim = np.array(part.centre) + part.radius * np.column_stack([np.cos(turn), np.sin(turn)])
+    else:
+        rim = np.array(part.points)
+    return np.array([[x, y, z] for x, y in rim for z in (part.bottom, part.top)])
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_line_of_sight_is_covered_where_points_of_it_are_in_the_ellipsoid(seed: int) -> None:
     occluder, eyes, points = drawn(seed)
@@ -129,19 +138,56 @@ def test_the_programme_s_term_is_the_paper_s() -> None:
 )
 def test_an_ellipsoid_holds_its_solid_and_touches_it(part: Cylinder | Prism) -> None:
     scale, centre = enclosing(part)
-    if isinstance(part, Cylinder):
-        turn = np.linspace(0.0, 2 * np.pi, 24)
-        rim = np.array(part.centre) + part.radius * np.column_stack([np.cos(turn), np.sin(turn)])
-    else:
-        rim = np.array(part.points)
-    corners = np.array([[x, y, z] for x, y in rim for z in (part.bottom, part.top)])
-    away = np.linalg.norm((corners - centre) @ scale.T, axis=1)
+    away = np.linalg.norm((corners_of(part) - centre) @ scale.T, axis=1)
     assert away.max() == pytest.approx(1.0, abs=1e-6)
 
 
 def test_a_solid_without_an_end_is_held_by_an_ellipsoid_without_one() -> None:
     scale, centre = enclosing(Cylinder((1.0, 2.0), 0.5, 0.0, np.inf))
     assert np.linalg.norm(scale @ (np.array([1.5, 2.0, 1e4]) - centre)) < 1.0
+
+
+MAST = Cylinder((0.0, 0.0), 2.5, 0.0, 10.6)
+
+
+def around(part: Cylinder | Prism, count: int) -> Occluder:
+    scale, centre = enclosing(part)
+    return Occluder(scale, np.tile(centre, (count, 1)), around_upright=True)
+
+
+@pytest.mark.parametrize("part", [MAST, box((5.0, 1.0, 4.0), (12.0, 1.0, 8.0), 0.6)])
+@pytest.mark.parametrize("seed", range(3))
+def test_an_ellipsoid_that_leaves_both_ends_outside_contains_the_solid_as_well(
+    part: Cylinder | Prism, seed: int
+) -> None:
+    occluder = around(part, 200)
+    centre = occluder.centres[0]
+    rng = np.random.default_rng(seed)
+    beside = np.linalg.solve(occluder.scale, rng.uniform(-1.3, 1.3, (200, 3)).T).T + centre
+    far = centre + rng.uniform(-1, 1, (200, 3)) + np.array([90.0, 0.0, 0.0])
+    maps = occluder.scales(beside, far)
+    ends = np.linalg.norm(np.einsum("nij,nj->ni", maps, beside - centre), axis=1)
+    fixed = np.linalg.norm((beside - centre) @ occluder.scale.T, axis=1)
+    other = np.abs(maps - occluder.scale).max(axis=(1, 2)) > 0.0
+    assert other.any()
+    assert (fixed[other] ** 2 <= 1.1).all()
+    assert (ends[other] ** 2 > 1.1).all()
+    lengths = np.linalg.norm(np.einsum("nij,cj->nci", maps, corners_of(part) - centre), axis=2)
+    assert lengths.max() == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("eye", "hides"),
+    [
+        ((0.0, 0.0, 11.2), True),  # just above the mast: behind its edge
+        ((0.0, 0.0, 11.8), False),  # over its edge
+        ((0.0, 3.4, 5.0), True),  # just behind it, beside its middle
+        ((0.0, -3.4, 5.0), False),  # just in front
+    ],
+)
+def test_a_camera_close_to_a_solid_is_told_what_it_hides(eye: tuple[float, ...], hides: bool) -> None:
+    occluder, eyes, point = around(MAST, 1), np.array([eye]), np.array([[0.0, -30.0, 1.0]])
+    assert bool(occluder.occlusion(eyes, point)[0] > 0.0) is hides
 
 
 @pytest.mark.long

@@ -36,6 +36,7 @@ NEAR_DV = 8.0  # of -d_v: lines of sight within three times the ellipsoid count
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # possible numbers of ellipsoids, so that few programmes are built
 NO_OCCLUDER_DV = -1e2  # of d_v, where there is no ellipsoid
 INNER_SHARE = 0.98  # of a share of the distance, because of the motion between nodes
+FLAT_SHARES = np.array([0.6, 0.4, 0.7, 0.3, 0.8, 0.2, 0.9, 0.1])  # of 1 / a^2, see ``Occluder.scales``
 ROOM_DV = 0.1  # of d_v: an ellipsoid that contains the camera or the subject, or almost, does not count
 
 
@@ -47,22 +48,47 @@ class Occluder:
     centres : at the nodes, W, metres, (N + 1, 3)
     before : the index of the subject that it may hide
     apart : at which nodes it is not a part of its subject, (N + 1,); a part hides nothing of it
+    around_upright : whether it contains an upright solid with both ends, with ENCLOSING_RATIO
     """
 
     scale: Array
     centres: Array
     before: int = 0
     apart: Mask | bool = True
+    around_upright: bool = False
 
     def occlusion(self, eyes: Array, points: Array) -> Array:
         """Return d_v of lines of sight, > 0 if hidden, (N + 1,); -inf if the point is before the horizon."""
-        ray, to_centre = (points - eyes) @ self.scale.T, (self.centres - eyes) @ self.scale.T
-        beyond = (points - self.centres) @ self.scale.T
+        maps = self.scales(eyes, points)
+        ray, to_centre, beyond = (
+            np.einsum("nij,nj->ni", maps, way)
+            for way in (points - eyes, self.centres - eyes, points - self.centres)
+        )
         square = np.maximum((ray**2).sum(axis=1), 1e-12)
         horizon = (to_centre**2).sum(axis=1) - 1.0
         along = (ray * to_centre).sum(axis=1)
         counts = (along > horizon) & (horizon > ROOM_DV) & ((beyond**2).sum(axis=1) > 1.0 + ROOM_DV)
         return np.where(counts & self.apart, along**2 / square - horizon, -np.inf)
+
+    def scales(self, eyes: Array, points: Array) -> Array:
+        """Return the linear map of the ellipsoid at each node, 1/m, (N + 1, 3, 3).
+
+        An ellipsoid around an upright solid is larger than it. Where the camera or the subject lies in it,
+        but another one around the solid leaves both outside, that one is taken: flatter for a camera above
+        the solid, taller for one beside it. The semi-axes stay on 1 / a^2 + 1 / b^2 = 1, where a and b are
+        ratios to those of the solid, so every one of them contains it.
+        """
+        maps = np.tile(self.scale, (len(eyes), 1, 1))
+        if not self.around_upright:
+            return maps
+        ends = np.array([(place - self.centres) @ self.scale.T for place in (eyes, points)])
+        inside = np.flatnonzero((ends**2).sum(axis=2).min(axis=0) <= 1.0 + ROOM_DV)
+        shares = np.column_stack([FLAT_SHARES, FLAT_SHARES, 1.0 - FLAT_SHARES]) / 0.5
+        least = np.einsum("ekd,sd->esk", ends[:, inside] ** 2, shares).min(axis=0)
+        for k, squares in zip(inside, least.T, strict=True):
+            if len(leaves := np.flatnonzero(squares > 1.0 + ROOM_DV)):
+                maps[k] *= np.sqrt(shares[leaves[0]])[:, None]
+        return maps
 
 
 def occluders_of(subject: ClockSubject, breaks: Array) -> tuple[Occluder, ...]:
@@ -80,17 +106,17 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
         if zone.keep == "out":
             for part in convex_parts(zone.solid):
                 scale, centre = enclosing(part)
-                yield Occluder(scale, still + centre)
+                yield Occluder(scale, still + centre, around_upright=bool(scale[2, 2] > 0.0))
     for mesh in mission.meshes:
         for prism in body_prisms(mesh):
             scale, centre = enclosing(prism)
-            yield Occluder(scale, still + centre)
+            yield Occluder(scale, still + centre, around_upright=bool(scale[2, 2] > 0.0))
     one = mission.one_with(name)
     for other in mission.targets:
         if other.name not in one:
             scale, centre = enclosing(other.solid)
             apart = ~parts_of_one(mission.target(name), other, breaks)
-            yield Occluder(scale, centre + moved(other, breaks), apart=apart)
+            yield Occluder(scale, centre + moved(other, breaks), apart=apart, around_upright=True)
     for drone, flight in flights(subject.path).items():
         if drone != subject.drone.name:
             radius = WIDER_RATIO * mission.drone(drone).radius
@@ -118,11 +144,12 @@ def with_occluders(
     count = next((c for c in COUNTS if c >= most), most)
     sight_lines = np.zeros((len(eyes), count, SIGHT_LINE_PARAMETERS))
     sight_lines[:, :, 12] = NO_OCCLUDER_DV
+    maps = [occluder.scales(eyes, points[:, occluder.before]) for occluder in occluders]
     for k in range(len(eyes)):
         for i, j in enumerate(np.flatnonzero(near[:, k])):
             occluder = occluders[int(j)]
             sight_lines[k, i] = [
-                *occluder.scale.T.ravel(),
+                *maps[int(j)][k].T.ravel(),
                 *occluder.centres[k],
                 1.0,
                 *points[k, occluder.before],
@@ -167,8 +194,13 @@ def hides_anew(
 
 
 def occlusion_at(occluders: Sequence[Occluder], references: ClockReferences, eyes: Array) -> Array:
-    """Return the largest d_v of each line of sight, > 0 if hidden; shape (N + 1,)."""
-    occlusions = [occluder.occlusion(eyes, references.centres[:, occluder.before]) for occluder in occluders]
+    """Return the largest d_v of each line of sight, > 0 if hidden; shape (N + 1,).
+
+    An ellipsoid with the camera or the subject in it counts nowhere: who is that close to a solid has no
+    side to choose.
+    """
+    fixed = [replace(occluder, around_upright=False) for occluder in occluders]
+    occlusions = [occluder.occlusion(eyes, references.centres[:, occluder.before]) for occluder in fixed]
     return np.asarray(np.max(occlusions, axis=0, initial=-np.inf))
 
 
