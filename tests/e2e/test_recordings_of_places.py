@@ -79,6 +79,7 @@ def test_what_stands_there_is_in_the_recording_where_it_stands(recording: Record
     assert (("/world/ground/plane", POSITIONS) in recording.places) is (mission.terrain is None)
 
 
+@pytest.mark.long
 def test_targets_are_where_they_are_filmed(recording: Recording) -> None:
     for target in recording.mission.targets:
         low, high = recording.box(f"/world/targets/{target.name}/body")

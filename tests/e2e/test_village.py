@@ -45,6 +45,7 @@ def test_the_village_is_of_houses_and_of_the_parts_of_a_church(planned):
     assert mesh.closed.all()
 
 
+@pytest.mark.long
 def test_the_body_keeps_its_distance_from_every_triangle(planned):
     (mesh,) = planned.trajectory.keyframes.mission.meshes
     flight, radius = planned.trajectory.drones[0], planned.trajectory.keyframes.mission.drones[0].radius

@@ -41,6 +41,7 @@ def draft():
     return next(each for each in lenses.drawn(50, 3) if each.name == SHORT)
 
 
+@pytest.mark.long
 def test_what_a_flight_shows_is_what_simulate_s_judge_sees(draft):
     made = framing.fly("none", convex_path(draft))
     ir, windy = made.plan.trajectory, Conditions(wind=flown.WIND)

@@ -65,7 +65,7 @@ def test_all_eight_configurations_are_solved_and_stay_out_of_the_no_fly_circle(r
         assert one.measures[DIST] > -1e-6, name
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @both
 def test_no_configuration_planned_whole_needs_many_iterations(reading: Reading) -> None:
     assert max(flown(reading)[name].iterations for name in CONFIGURATIONS) <= 20

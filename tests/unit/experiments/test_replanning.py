@@ -37,6 +37,7 @@ def test_it_never_enters_the_zone_and_is_near_the_paper_s_rmse(name):
     assert pitch > 0.2
 
 
+@pytest.mark.long
 def test_calm_the_acceleration_falls_with_the_horizon():
     mean = [fly(stages, None).measures(np.random.default_rng(0))[1] for stages in HORIZONS.values()]
     assert mean == sorted(mean, reverse=True)

@@ -149,6 +149,7 @@ def test_several_subjects_are_led_apart_on_screen() -> None:
         assert np.abs(frames.u - eased(t, known)).max() < 0.05, name
 
 
+@pytest.mark.long
 def test_who_plans_anew_is_told_what_is_asked_at_that_time() -> None:
     plan = planned(text(ONE))
     film = film_of(plan.trajectory.keyframes.mission, plan.trajectory.drones[0])
