@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import BSpline
@@ -90,10 +91,10 @@ class FlightSpline:
         count = max(LEAST_PIECES, int(np.ceil(total / PIECE_S)))
         h = total / count
         elapsed: Array = h * np.arange(count + 1, dtype=np.float64)
-        s, rate, bend = _scaled(elapsed, *programme)
-        at = time + s
+        scaled = _scaled(elapsed, *programme)
+        at = time + scaled.s
         place, velocity, acceleration = (self.at(at, order, rows) for order in range(3))
-        q2 = acceleration * rate[:, None] ** 2 + velocity * bend[:, None]
+        q2 = acceleration * scaled.rate[:, None] ** 2 + velocity * scaled.bend[:, None]
         ctrl = place - h**2 / 6.0 * q2
         # The first three control points give the exact position, velocity and acceleration at the start.
         turn, step = 0.5 * h**2 * q2[:, 0], h * velocity[:, 0]
@@ -117,13 +118,19 @@ def _programmes(less: float) -> Iterator[tuple[float, float]]:
     yield from sorted(programmes, key=lambda both: (sum(both), both[0]))
 
 
-def _scaled(elapsed: Array, delay: float, braking: float) -> tuple[Array, Array, Array]:
-    """Return s, s' and s'' (see the module) at seconds since t0, in the shape of ``elapsed``; s
-    counts from t0.
-    """
+class _ScaledTime(NamedTuple):
+    """The time s of the plan (see the module), seconds since t0, with its two derivatives, (T,) each."""
+
+    s: Array
+    rate: Array
+    bend: Array
+
+
+def _scaled(elapsed: Array, delay: float, braking: float) -> _ScaledTime:
+    """Return the time of the plan at seconds since t0, (T,)."""
     u = np.clip((elapsed - delay) / braking, 0.0, 1.0)
     s = np.minimum(elapsed, delay) + braking * (u - u**3 + 0.5 * u**4)
-    return s, 1.0 - 3.0 * u**2 + 2.0 * u**3, 6.0 * (u**2 - u) / braking
+    return _ScaledTime(s, 1.0 - 3.0 * u**2 + 2.0 * u**3, 6.0 * (u**2 - u) / braking)
 
 
 def _within(rest: Rest, limits: Limits) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,8 +19,15 @@ LEVEL_LIGHTNESS, CONTRAST_LIGHTNESS = 0.86, 0.4
 """Lightness of a face parallel to the light, and the amount added for one that faces it."""
 
 
-_Planes = tuple[Array, Array, Array]
-_NONE = (np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
+class _Planes(NamedTuple):
+    """Triangles (N, 3, 3), their unit normals (0 without area) and middles, shape (N, 3) each."""
+
+    triangles: Array
+    normals: Array
+    middles: Array
+
+
+_NONE = _Planes(np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +49,7 @@ def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
         _NONE,
         *(_whole(mesh) if mesh.spacing <= 0.0 else _planes(_turned(mesh, eye)) for mesh in meshes),
     ]
-    triangles, normal, middle = (np.concatenate([part[k] for part in parts]) for k in range(3))
+    triangles, normal, middle = (np.concatenate(each) for each in zip(*parts, strict=True))
     turned_away = np.einsum("nd,nd->n", normal, eye - middle) < 0.0
     normal[turned_away] *= -1.0
     light = np.clip(LEVEL_LIGHTNESS + CONTRAST_LIGHTNESS * (normal @ LIGHT), 0.45, 1.3)
@@ -55,10 +63,10 @@ def _whole(mesh: ObstacleMesh) -> _Planes:
 
 
 def _planes(triangles: Array) -> _Planes:
-    """Return triangles (N, 3, 3), their unit normals (0 without area) and middles, shape (N, 3) each."""
+    """Return triangles (N, 3, 3) with their planes."""
     normal = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
-    return triangles, normal / np.where(size > 0.0, size, 1.0), triangles.mean(axis=1)
+    return _Planes(triangles, normal / np.where(size > 0.0, size, 1.0), triangles.mean(axis=1))
 
 
 def _turned(mesh: ObstacleMesh, eye: Array) -> Array:

@@ -96,13 +96,17 @@ def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPat
     ):
         extremes = [(each, i) for i, flight in enumerate(flights) if (each := of(flight)) is not None]
         if extremes:
-            (value, time, leeway), owner = max(extremes, key=lambda one: one[0][0] - one[0][2])
+            peak, owner = max(extremes, key=lambda one: one[0].value - one[0].leeway)
             limit = Limit(name, most, unit, (*path, "limits", name))
-            yield LimitFinding(limit, WorstValue(value, time, "bounded"), leeway, owner)
+            yield LimitFinding(limit, WorstValue(peak.value, peak.time, "bounded"), peak.leeway, owner)
 
 
-Peak = tuple[float, float, float]
-"""The largest value in excess of the uncertainty: the value, its time in seconds, and the uncertainty."""
+class Peak(NamedTuple):
+    """The largest value in excess of the uncertainty: the value, its time in seconds, and the uncertainty."""
+
+    value: float
+    time: float
+    leeway: float
 
 
 def _acceleration(flight: ClockedFlight) -> Peak | None:
@@ -119,7 +123,7 @@ def _acceleration(flight: ClockedFlight) -> Peak | None:
     if measured is not None:
         size = norm(measured)
         own = _peak(size, rows.time, np.zeros(len(size)))
-        peak = own if peak is None or own[0] > peak[0] else peak
+        peak = own if peak is None or own.value > peak.value else peak
     return peak
 
 
@@ -145,7 +149,7 @@ def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
 
 def _peak(size: Array, time: Array, leeway: Array) -> Peak:
     k = int(np.argmax(size - leeway))
-    return float(size[k]), float(time[k]), float(leeway[k])
+    return Peak(float(size[k]), float(time[k]), float(leeway[k]))
 
 
 def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
@@ -159,7 +163,7 @@ def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
         yaw = np.unwrap(body[:, 0])
         most = (limits.yaw_rate, limits.yaw_acceleration)
         keys = (("limits", "yaw_rate"), ("limits", "yaw_acceleration"))
-        yield from _rates(rows, ("body yaw", yaw, BODY), most, [(*drone.path, *key) for key in keys])
+        yield from _rates(rows, _Angle("body yaw", yaw, BODY), most, [(*drone.path, *key) for key in keys])
     for name, reach in (("pitch", gimbal.pitch), ("yaw", gimbal.yaw)):
         if camera is None or (name == "yaw" and body is None):
             continue
@@ -177,7 +181,7 @@ def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
         keys = (("gimbal", "rate"), ("gimbal", "acceleration"))
         most = (gimbal.rate, gimbal.acceleration)
         yield from _rates(
-            rows, (f"gimbal {name}", angle, columns), most, [(*drone.path, *key) for key in keys]
+            rows, _Angle(f"gimbal {name}", angle, columns), most, [(*drone.path, *key) for key in keys]
         )
 
 
@@ -197,20 +201,30 @@ def zooms(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
         peak = _mean(hfov, time, _rounding(flight.rows, "hfov_rad"))
         if peak is not None:
             rate = Limit("zoom rate", lens.rate, "rad/s", (*drone.path, "camera", "zoom_rate"))
-            yield LimitFinding(rate, WorstValue(peak[0], peak[1]), peak[2], 0)
+            yield LimitFinding(rate, WorstValue(peak.value, peak.time), peak.leeway, 0)
+
+
+class _Angle(NamedTuple):
+    """An angle in the rows of a table, rad, (N,); columns : those from which it is computed."""
+
+    name: str
+    values: Array
+    columns: Sequence[str]
 
 
 def _rates(
-    rows: DroneRows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
+    rows: DroneRows, angle: _Angle, most: tuple[float, float], paths: Sequence[KeyPath]
 ) -> Iterator[LimitFinding]:
     """Yield lower bounds of an angle's rate and acceleration: means over one and over two intervals."""
-    name, angle, columns = of
-    rounding = 2 * _rounding(rows, *columns)
+    rounding = 2 * _rounding(rows, *angle.columns)
     step = np.diff(rows.time)
-    rate = np.diff(angle) / step
+    rate = np.diff(angle.values) / step
     peak = _peak(np.abs(rate), rows.time[1:], 2 * rounding / step)
     yield LimitFinding(
-        Limit(f"{name} rate", most[0], "rad/s", paths[0]), WorstValue(peak[0], peak[1]), peak[2], 0
+        Limit(f"{angle.name} rate", most[0], "rad/s", paths[0]),
+        WorstValue(peak.value, peak.time),
+        peak.leeway,
+        0,
     )
     if len(rate) > 1:
         # The mean rate of an interval is reached somewhere in it. These instants of two neighbouring
@@ -222,9 +236,9 @@ def _rates(
             4 * rounding / np.minimum(step[:-1], step[1:]) / wide,
         )
         yield LimitFinding(
-            Limit(f"{name} acceleration", most[1], "rad/s^2", paths[1]),
-            WorstValue(peak[0], peak[1]),
-            peak[2],
+            Limit(f"{angle.name} acceleration", most[1], "rad/s^2", paths[1]),
+            WorstValue(peak.value, peak.time),
+            peak.leeway,
             0,
         )
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import ROUNDING_M, View, VisibleShape, frustum_margins, point_margins
+from shotc.geom.camera import ROUNDING_M, Offset, View, VisibleShape, frustum_margins, point_margins
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks
@@ -119,7 +119,7 @@ def margin_rate(reach: float, speed: float, turn: float, zoom: float, aspect: fl
     return speed + reach * (turn + 0.5 * zoom * max(aspect, 1.0 / aspect))
 
 
-def _size(camera: View, offset: tuple[Array, Array, Array], shape: VisibleShape) -> Array:
+def _size(camera: View, offset: Offset, shape: VisibleShape) -> Array:
     whole = shape.nearest_depth(camera, offset) > 0
     with np.errstate(divide="ignore", invalid="ignore"):
         _, _, low, high = shape.bounds(camera, offset)

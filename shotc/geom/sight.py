@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import frustum_margins
+from shotc.geom.camera import Offset, frustum_margins
 from shotc.geom.framing import Cameras
 
 WITHIN_RAD = -0.5 * np.pi
@@ -36,6 +36,6 @@ def off_axis(cameras: Cameras, places: Array, radius: float) -> Array:
     return np.where(far > radius, np.arctan2(radial, forward) - half, WITHIN_RAD)
 
 
-def _offsets(cameras: Cameras, places: Array) -> tuple[Array, Array, Array]:
+def _offsets(cameras: Cameras, places: Array) -> Offset:
     x, y, z = (places - cameras.position).T
     return x, y, z

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array, bernstein_basis
-from shotc.geom.pieces import Pieces
+from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.proof import norm
 
 SAMPLES_PER_PIECE = 9
@@ -42,15 +44,15 @@ def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> CurveD
     pairs = _near(one, other, best)
     closed, rest = np.inf, np.inf
     for _ in range(MOST_HALVINGS):
-        if not len(pairs[0]):
+        if not len(pairs.first):
             break
-        first, second = one.ctrl[pairs[0]], other.ctrl[pairs[1]]
+        first, second = pairs.one.ctrl[pairs.first], pairs.other.ctrl[pairs.second]
         middle = _middle(first) - _middle(second)
         distance = norm(middle)
         k = int(np.argmin(distance))
         if distance[k] < best:
             best = float(distance[k])
-            at = (_when(one, int(pairs[0][k])), _when(other, int(pairs[1][k])))
+            at = (_when(pairs.one, int(pairs.first[k])), _when(pairs.other, int(pairs.second[k])))
         along = middle / np.maximum(distance, 1e-12)[:, None]
         apart = np.einsum("mkd,md->mk", first, along).min(axis=1)
         lower = np.maximum(apart - np.einsum("mkd,md->mk", second, along).max(axis=1), 0.0)
@@ -59,11 +61,17 @@ def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> CurveD
         rest = float(lower[is_open].min(initial=np.inf))
         if best <= 0.0 or is_open.sum() > OPEN_PAIRS_LIMIT:
             break
-        one, other, pairs = _halved(one, other, (pairs[0][is_open], pairs[1][is_open]))
+        pairs = _halved(pairs, is_open)
     return CurveDistance(min(closed, best, rest), best, *at)
 
 
-_Pairs = tuple[np.ndarray, np.ndarray]
+class _Pairs(NamedTuple):
+    """Pairs of pieces of two curves: the pieces, and their indices in each pair, (M,)."""
+
+    one: Pieces
+    other: Pieces
+    first: IntArray
+    second: IntArray
 
 
 def _sampled(one: Pieces, other: Pieces) -> tuple[float, tuple[float, float]]:
@@ -89,20 +97,20 @@ def _near(one: Pieces, other: Pieces, reach: float) -> _Pairs:
     first = np.repeat(np.arange(len(a)), [len(each) for each in neighbours])
     second = np.array([j for each in neighbours for j in each], dtype=np.intp)
     near = norm(a[first] - b[second]) <= reach + r[first] + s[second]
-    return first[near], second[near]
+    return _Pairs(one, other, first[near], second[near])
 
 
-def _halved(one: Pieces, other: Pieces, pairs: _Pairs) -> tuple[Pieces, Pieces, _Pairs]:
-    """Return the halves of the pieces of pairs, and every pair of halves."""
+def _halved(pairs: _Pairs, which: Mask) -> _Pairs:
+    """Return every pair of halves of the pieces of some pairs."""
     halves, bags = [], []
-    for bag, index in zip((one, other), pairs, strict=True):
+    for bag, index in ((pairs.one, pairs.first[which]), (pairs.other, pairs.second[which])):
         used, renamed = np.unique(index, return_inverse=True)
         bags.append(Pieces(bag.low[used], bag.high[used], bag.ctrl[used]).halves())
         halves.append((renamed, len(used)))
     (a, m), (b, n) = halves
     first = np.concatenate([a, a, a + m, a + m])
     second = np.concatenate([b, b + n, b, b + n])
-    return bags[0], bags[1], (first, second)
+    return _Pairs(bags[0], bags[1], first, second)
 
 
 def _middle(ctrl: Array) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.fleet import FleetTrajectory
@@ -47,6 +47,14 @@ class TrajectoryIR:
         return max(ends, default=0.0)
 
 
+class ClaimKey(NamedTuple):
+    """The subject of a claim, its shot and its constraint; a certificate has no two claims of one key."""
+
+    subject: str
+    shot: str | None
+    constraint: str
+
+
 @dataclass(frozen=True, slots=True)
 class Claim:
     """One line of the certificate.
@@ -75,6 +83,11 @@ class Claim:
     holds: bool
     path: KeyPath
     drones: tuple[str, ...] = ()
+
+    @property
+    def key(self) -> ClaimKey:
+        """What tells it from the other claims of its certificate."""
+        return ClaimKey(self.subject, self.shot, self.constraint)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, NamedTuple
 
 from shotc.kinds.files import MOST_ROWS, FileFault, NumberTable, not_xml, row_of
 from shotc.source.xml import StopParsing, feed
@@ -74,6 +74,15 @@ def _timed(points: list[_Point]) -> tuple[tuple[float, ...], ...] | FileFault:
     return tuple(rows)
 
 
+class _OpenPoint(NamedTuple):
+    """A point whose end is not read yet: its element, latitude, longitude, and line."""
+
+    kind: str
+    lat: str
+    lon: str
+    line: int
+
+
 class _Gpx:
     """Expat's handlers; they collect points until the first fault."""
 
@@ -82,7 +91,7 @@ class _Gpx:
         self.points: dict[str, list[_Point]] = {"trkpt": [], "rtept": []}
         self.fault: FileFault | None = None
         self._wanted = {"ele", "time"} if timed else {"ele"}
-        self._open: tuple[str, str, str, int] | None = None
+        self._open: _OpenPoint | None = None
         self._texts: dict[str, str] = {}
         self._depth = 0  # of elements inside the point; an extension may have its own time
         self._reading = ""
@@ -94,7 +103,7 @@ class _Gpx:
         name = tag.rsplit(":", 1)[-1]
         if name in self.points:
             lat, lon = attributes.get("lat", ""), attributes.get("lon", "")
-            self._open = (name, lat, lon, self.parser.CurrentLineNumber)
+            self._open = _OpenPoint(name, lat, lon, self.parser.CurrentLineNumber)
             self._texts, self._depth, self._reading = {}, 0, ""
             return
         self._depth += 1
@@ -110,7 +119,7 @@ class _Gpx:
         name = tag.rsplit(":", 1)[-1]
         self._reading = ""
         self._depth -= 1
-        if self._open is None or name != self._open[0]:
+        if self._open is None or name != self._open.kind:
             return
         kind, lat, lon, line = self._open
         self._open = None

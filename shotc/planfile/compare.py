@@ -19,8 +19,6 @@ SHARES = np.linspace(0.0, 1.0, 2001)
 DRONE_STRIDE = 20
 """For the many drones of a fleet, only every EVERY-th of SHARES is compared."""
 
-ClaimKey = tuple[str, str | None, str]
-
 
 @dataclass(frozen=True, slots=True)
 class ShotChange:
@@ -135,15 +133,11 @@ def _places(flown: Flown, shares: Array) -> Array:
 
 
 def _claims(old: tuple[Claim, ...], new: tuple[Claim, ...]) -> Iterator[ClaimChange]:
-    before, after = _by_key(old), _by_key(new)
+    before, after = {c.key: c for c in old}, {c.key: c for c in new}
     for key in dict.fromkeys([*before, *after]):
         first, second = before.get(key), after.get(key)
         if first is None or second is None or _numbers(first) != _numbers(second):
             yield ClaimChange(first, second)
-
-
-def _by_key(claims: tuple[Claim, ...]) -> dict[ClaimKey, Claim]:
-    return {(c.subject, c.shot, c.constraint): c for c in claims}
 
 
 def _numbers(claim: Claim) -> tuple[object, ...]:

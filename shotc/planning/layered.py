@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -124,7 +124,7 @@ def led_round(
     layers = np.unique(np.append(np.arange(0, len(times) - 1, _stride(times)), len(times) - 1))
     seen = None if watched is None else watched.at(layers)
     fixed = None if held is None else held[layers]
-    offsets = _course(space, near, (times[layers], ideal[layers], fixed), seen, joined=joined)
+    offsets = _course(space, near, _Layers(times[layers], ideal[layers], fixed), seen, joined=joined)
     if offsets is None:
         return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
@@ -137,20 +137,27 @@ def _stride(times: Array) -> int:
     return max(1, round(LEAST_S * (len(times) - 1) / float(times[-1] - times[0])))
 
 
+class _Layers(NamedTuple):
+    """Mission times (L,) and ideal positions (L, 3); held : which of these stay where they are free, (L,)."""
+
+    times: Array
+    ideal: Array
+    held: Mask | None
+
+
 def _course(
     space: FreeSpace,
     near: Sequence[Passing],
-    ideal: tuple[Array, Array, Mask | None],
+    layers: _Layers,
     watched: VisibleSubject | None,
     *,
     joined: bool,
 ) -> Array | None:
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
 
-    ideal : times (L,), ideal positions (L, 3), and ``held`` of ``led_round``
-    joined : as there
+    joined : as in ``led_round``
     """
-    times, at_ideal, held = ideal
+    times, at_ideal, held = layers
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
     shifts = np.concatenate([np.zeros((1, 3)), rings.reshape(-1, 3)])
     places, step = at_ideal[:, None] + shifts, np.diff(times)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import exp, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -45,12 +46,20 @@ def axes_of(yaw: Array, pitch: Array) -> Array:
     return np.stack([right, cross(forward, right), forward], axis=-1)
 
 
-def angles_of(axes: Array) -> tuple[Array, Array, Array]:
-    """Return yaw, pitch and roll (R,) of R_WC (R, 3, 3), rad; roll is positive with the right side up."""
+class CameraAngles(NamedTuple):
+    """Yaw, pitch and roll, (R,) each, rad; roll is positive with the right side up."""
+
+    yaw: Array
+    pitch: Array
+    roll: Array
+
+
+def angles_of(axes: Array) -> CameraAngles:
+    """Return the angles of R_WC, shape (R, 3, 3)."""
     forward, right = axes[..., 2], axes[..., 0]
     yaw = np.arctan2(forward[..., 1], forward[..., 0])
     pitch = np.arcsin(np.clip(forward[..., 2], -1.0, 1.0))
-    return yaw, pitch, np.arctan2(right[..., 2], -axes[..., 2, 1])
+    return CameraAngles(yaw, pitch, np.arctan2(right[..., 2], -axes[..., 2, 1]))
 
 
 def turn_rate(axes: Array, yaw_rate: Array, pitch_rate: Array) -> Array:

@@ -124,7 +124,7 @@ class PositionFix:
         jacobian[:, :, :3] = jacobian[:, :, BIAS] = np.eye(3)
         noise = self.deviation**2 * np.eye(3)
         miss = self.place - estimate.position - estimate.mean[:, BIAS]
-        return _updated(estimate, (miss, jacobian, noise), self.used)
+        return _updated(estimate, _Innovation(miss, jacobian, noise), self.used)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,7 +157,7 @@ class PictureFix:
         spread = rows @ estimate.covariance @ np.swapaxes(rows, 1, 2) + noise
         off = np.einsum("ri,rij,rj->r", miss, np.linalg.inv(spread), miss)
         right = off <= GATE_CHI2
-        updated = _updated(estimate, (miss, rows, noise), known & right)
+        updated = _updated(estimate, _Innovation(miss, rows, noise), known & right)
         # A model whose detections are always rejected has the likelihood of a detection at the gate.
         rest = -0.5 * (GATE_CHI2 + np.linalg.slogdet(spread)[1])
         return Taken(updated.estimate, np.where(known & ~right, rest, updated.fit))
@@ -221,12 +221,17 @@ def _forward(dt: float, model: MotionModel) -> Array:
     return np.array([[1.0, span, dt - span], [0.0, 1.0 - share, share], [0.0, 0.0, 1.0]])
 
 
-def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Taken:
-    """Return an estimate after an update where ``used``.
+class _Innovation(NamedTuple):
+    """The residual of a measurement (R, m), its Jacobian (R, m, 12), and its noise covariance (m, m)."""
 
-    row : innovation (R, m), Jacobian (R, m, 12) and noise (m, m)
-    """
-    miss, jacobian, noise = row
+    miss: Array
+    jacobian: Array
+    noise: Array
+
+
+def _updated(estimate: Estimate, innovation: _Innovation, used: Mask) -> Taken:
+    """Return an estimate after an update where ``used``, (R,)."""
+    miss, jacobian, noise = innovation
     across = np.swapaxes(jacobian, 1, 2)
     spread = jacobian @ estimate.covariance @ across + noise
     inverse = np.linalg.inv(spread)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -157,14 +157,14 @@ class ComposedShot:
         filmed = {each.target: self._appearances(each, stages) for each in self.subjects}
         references = {each.target: each.reference[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
+        now = _FramedInstant(stages, of, references)
         return FramingSituation(
             time=float(stages[0]),
             place=drone[0],
             velocity=drone[1],
             aim=_aim(film, float(stages[0]), of.last),
             subjects=tuple(
-                _filmed(mission, film.drone, target, filmed.get(target.name), (stages, of, references))
-                for target in bodies
+                _filmed(mission, film.drone, target, filmed.get(target.name), now) for target in bodies
             ),
             traffic=of.traffic,
             walls=of.walls,
@@ -300,22 +300,29 @@ def _aim(film: PlanSamples, time: float, last: Plan) -> tuple[float, float]:
     return yaw, pitch
 
 
+class _FramedInstant(NamedTuple):
+    """The times of the stages (N + 1,), what is known now, and the wanted place on screen of each target."""
+
+    stages: Array
+    of: ReplanInstant
+    references: Mapping[str, Array]
+
+
 def _filmed(
     mission: MissionIR,
     drone: Drone,
     target: Target,
     appearances: tuple[Asked, ...] | None,
-    at: tuple[Array, ReplanInstant, Mapping[str, Array]],
+    now: _FramedInstant,
 ) -> FilmedSubject:
-    stages, of, references = at
-    points, _ = predicted(target, stages, of)
+    points, _ = predicted(target, now.stages, now.of)
     beside = mission.rules.beside_target(drone.radius)
     return FilmedSubject(
         point=points,
         centre=points,
         semi_axes=(target.radius + beside, target.radius + beside, target.height / 2 + beside),
         diameter=target.height,
-        wanted=None if appearances is None else _appearance(appearances, references.get(target.name)),
+        wanted=None if appearances is None else _appearance(appearances, now.references.get(target.name)),
     )
 
 

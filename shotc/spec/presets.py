@@ -69,9 +69,19 @@ class Preset(NamedTuple):
     sensor: float | None = None
 
 
-def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
-    """Return limits: (speed, climb, descent, acceleration, jerk) in SI, yaw (rate, acceleration) in deg."""
-    return Limits(*linear, radians(yaw[0]), radians(yaw[1]))
+class _Motion(NamedTuple):
+    """Limits of the motion of a drone, SI."""
+
+    speed: float
+    climb: float
+    descent: float
+    acceleration: float
+    jerk: float
+
+
+def _limits(motion: _Motion, yaw: tuple[float, float]) -> Limits:
+    """Return limits; yaw : (rate, acceleration) in degrees."""
+    return Limits(*motion, radians(yaw[0]), radians(yaw[1]))
 
 
 def _gimbal(pitch: tuple[float, float], yaw: tuple[float, float], rates: tuple[float, float]) -> Gimbal:
@@ -93,7 +103,7 @@ _WIDE_FOV_RAD = radians(71.6)  # 24 mm equivalent, from the full width of a 4:3 
 
 def _dji(
     summary: str,
-    linear: tuple[float, float, float, float, float],
+    motion: _Motion,
     pitch: tuple[float, float],
     minutes: float,
     source: str,
@@ -106,7 +116,7 @@ def _dji(
     """
     return Preset(
         summary=summary,
-        limits=_limits(linear, (60.0, 90.0) if light else (70.0, 100.0)),
+        limits=_limits(motion, (60.0, 90.0) if light else (70.0, 100.0)),
         gimbal=_gimbal(pitch, (-10.0, 10.0), (60.0, 120.0)),
         hfov=_WIDE_FOV_RAD,
         aspect=16 / 9,
@@ -119,17 +129,17 @@ def _dji(
     )
 
 
-_MINI_3 = (7.5, 2.2, 2.2, 3.0, 8.0)
-_LIGHT = (9.0, 3.5, 3.0, 3.0, 8.0)
-_AIR = (11.0, 4.5, 4.5, 4.0, 10.0)
-_MAVIC = (11.0, 4.5, 4.0, 4.0, 10.0)
+_MINI_3 = _Motion(speed=7.5, climb=2.2, descent=2.2, acceleration=3.0, jerk=8.0)
+_LIGHT = _Motion(speed=9.0, climb=3.5, descent=3.0, acceleration=3.0, jerk=8.0)
+_AIR = _Motion(speed=11.0, climb=4.5, descent=4.5, acceleration=4.0, jerk=10.0)
+_MAVIC = _Motion(speed=11.0, climb=4.5, descent=4.0, acceleration=4.0, jerk=10.0)
 
 _PX4 = "speeds and accelerations below PX4's default MPC_* limits; "
 
 _MODELS: dict[str, Preset] = {
     "x500": Preset(
         summary="500 mm PX4 development quadrotor with a three-axis gimbal",
-        limits=_limits((8.0, 3.0, 1.5, 3.0, 8.0), (60.0, 90.0)),
+        limits=_limits(_Motion(speed=8.0, climb=3.0, descent=1.5, acceleration=3.0, jerk=8.0), (60.0, 90.0)),
         gimbal=_gimbal((-90.0, 30.0), (-135.0, 135.0), (45.0, 90.0)),
         hfov=radians(70.0),
         aspect=16 / 9,
@@ -143,7 +153,7 @@ _MODELS: dict[str, Preset] = {
     ),
     "mini": Preset(
         summary="folding camera drone under 250 g; its gimbal does not pan, the body turns",
-        limits=_limits((8.0, 3.0, 3.0, 3.0, 8.0), (60.0, 90.0)),
+        limits=_limits(_Motion(speed=8.0, climb=3.0, descent=3.0, acceleration=3.0, jerk=8.0), (60.0, 90.0)),
         gimbal=_gimbal((-90.0, 35.0), (-10.0, 10.0), (60.0, 120.0)),
         hfov=radians(72.0),
         aspect=16 / 9,
@@ -156,7 +166,9 @@ _MODELS: dict[str, Preset] = {
     ),
     "pro": Preset(
         summary="folding camera drone of about 1 kg; its gimbal does not pan, the body turns",
-        limits=_limits((12.0, 5.0, 4.0, 4.0, 10.0), (70.0, 100.0)),
+        limits=_limits(
+            _Motion(speed=12.0, climb=5.0, descent=4.0, acceleration=4.0, jerk=10.0), (70.0, 100.0)
+        ),
         gimbal=_gimbal((-90.0, 30.0), (-10.0, 10.0), (60.0, 120.0)),
         hfov=radians(72.0),
         aspect=16 / 9,
@@ -243,7 +255,7 @@ _MODELS: dict[str, Preset] = {
     )._replace(autopilot="pilot-2"),
     "solo": Preset(
         summary="ArduPilot quadrotor with an action camera on a gimbal without pan",
-        limits=_limits((8.0, 3.0, 2.0, 2.5, 5.0), (60.0, 90.0)),
+        limits=_limits(_Motion(speed=8.0, climb=3.0, descent=2.0, acceleration=2.5, jerk=5.0), (60.0, 90.0)),
         gimbal=_gimbal((-90.0, 30.0), (-20.0, 20.0), (45.0, 90.0)),
         hfov=radians(87.0),
         aspect=16 / 9,
@@ -256,7 +268,7 @@ _MODELS: dict[str, Preset] = {
     ),
     "alta-x": Preset(
         summary="heavy lifter with a cinema camera on a gimbal that pans all round",
-        limits=_limits((10.0, 3.0, 2.0, 2.0, 4.0), (40.0, 50.0)),
+        limits=_limits(_Motion(speed=10.0, climb=3.0, descent=2.0, acceleration=2.0, jerk=4.0), (40.0, 50.0)),
         gimbal=_gimbal((-90.0, 25.0), (-170.0, 170.0), (40.0, 60.0)),
         hfov=radians(39.0),
         aspect=17 / 9,
@@ -269,7 +281,7 @@ _MODELS: dict[str, Preset] = {
     ),
     "crazyflie": Preset(
         summary="27 g indoor research quadrotor with a fixed forward camera",
-        limits=_limits((1.0, 0.8, 0.5, 1.5, 6.0), (90.0, 180.0)),
+        limits=_limits(_Motion(speed=1.0, climb=0.8, descent=0.5, acceleration=1.5, jerk=6.0), (90.0, 180.0)),
         gimbal=_gimbal((-10.0, 10.0), (-5.0, 5.0), (30.0, 60.0)),
         hfov=radians(65.0),
         aspect=1.0,
@@ -283,7 +295,7 @@ _MODELS: dict[str, Preset] = {
     ),
     "show-drone": Preset(
         summary="light-show quadrotor without a camera",
-        limits=_limits((5.0, 2.5, 2.0, 2.5, 8.0), (45.0, 90.0)),
+        limits=_limits(_Motion(speed=5.0, climb=2.5, descent=2.0, acceleration=2.5, jerk=8.0), (45.0, 90.0)),
         gimbal=_gimbal((-90.0, 30.0), (-180.0, 180.0), (45.0, 90.0)),
         hfov=radians(70.0),
         aspect=16 / 9,

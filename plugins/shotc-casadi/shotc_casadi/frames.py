@@ -49,7 +49,8 @@ def insides(subject: ShotContext, references: References, s: Array, q: Array) ->
     offset = (references.centre - q[:, :3]).T
     wide, tall = fields_of_view(subject, s, q)
     view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
-    metres = np.min([frustum_margins(view, *body) for body in _bodies(references, offset)], axis=0)
+    bodies = _bodies(references, offset)
+    metres = np.min([frustum_margins(view, (at[0], at[1], at[2]), body) for at, body in bodies], axis=0)
     distances = np.linalg.norm(offset, axis=0)
     halves = (wide, wide, tall, tall)
     rows = [
@@ -58,14 +59,13 @@ def insides(subject: ShotContext, references: References, s: Array, q: Array) ->
     return np.column_stack(rows)
 
 
-def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array, Array, Array], Extent]]:
-    """Yield offset and extent of every body of the targets; offset : of their centres, (3, M)."""
+def _bodies(references: References, offset: Array) -> Iterator[tuple[Array, Extent]]:
+    """Yield offset (3, M) and extent of every body of the targets; offset : of their centres, (3, M)."""
     alone = np.zeros((EXTENT_PARAMETERS, offset.shape[1]))
     alone[3], alone[4] = references.radius, references.height
     bodies = np.moveaxis(references.extents, 0, -1) if references.extents.shape[1] else alone[None]
     for body in map(Extent.of, bodies):
-        x, y, z = offset + body.offset
-        yield (x, y, z), body
+        yield offset + body.offset, body
 
 
 def first_margins(subject: ShotContext, nodes: Stages, references: References) -> References:

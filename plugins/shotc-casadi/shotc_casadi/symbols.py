@@ -290,23 +290,27 @@ def _cropped(visibility: Visibility, x: Any, bodies: tuple[_Body, ...], distance
         normal = ca.sqrt(1 + half**2)
         up = (half * sin + (sign * cos if axis == UP else 0)) / normal
         for body in bodies:
-            reach = _reach(up, body, (half / normal, sign / normal, axis)) if exact else 0.0
+            reach = _reach(up, body, _EdgePlane(half / normal, sign / normal, axis)) if exact else 0.0
             for point in [body.view] if exact else _hull_points(body, x):
                 gap = half * point[AHEAD] + sign * point[axis] - normal * reach
                 cost += ca.fmax(0, given["inside"][index] - gap / (half * distance)) ** 2
     return cost
 
 
-def _reach(up: Any, body: _Body, plane: tuple[Any, Any, int]) -> Any:
-    """Return how far a body reaches along a unit normal.
+class _EdgePlane(NamedTuple):
+    """The unit normal of a plane of the frustum: its components forward and along an axis of the camera."""
 
-    up : the normal's component upwards in W
-    plane : its components forward and along an axis, and the index of that axis
-    """
+    ahead: Any
+    lateral: Any
+    axis: int
+
+
+def _reach(up: Any, body: _Body, plane: _EdgePlane) -> Any:
+    """Return how far a body reaches along a unit normal; up : the normal's component upwards in W."""
     far = body.height / 2 * ca.sqrt(up**2 + 1e-8) + body.radius * ca.sqrt(1 - up**2 + 1e-6)
-    ahead, lateral, axis = plane
     for side in body.sides:
-        far += rounded(ahead * side[AHEAD] + lateral * side[axis], side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
+        along = plane.ahead * side[AHEAD] + plane.lateral * side[plane.axis]
+        far += rounded(along, side[0] ** 2 + side[1] ** 2 + side[2] ** 2)
     return far
 
 

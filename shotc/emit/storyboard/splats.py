@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,8 +106,8 @@ class DepthRaster:
 def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRaster:
     """Return the picture of triangles, of size (rows, columns)."""
     rows, columns = size
-    depth = np.full(rows * columns, np.inf)
-    colors, points = np.zeros((rows * columns, 3)), np.full((rows * columns, 3), np.nan)
+    count = rows * columns
+    pixels = _Pixels(np.full(count, np.inf), np.zeros((count, 3)), np.full((count, 3), np.nan))
     small = _small(faces, project)
     page = project(small.triangles)
     sides = np.linalg.norm(page.at - page.at[:, [1, 2, 0]], axis=2).max(axis=1)
@@ -119,10 +120,10 @@ def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRas
             # einsum takes three times as long for such short sums.
             p = (share[:, :1] * a + share[:, 1:2] * b + share[:, 2:] * c).reshape(-1, 3)
             tint = np.repeat(small.colors[some], len(share), axis=0)
-            _put(project(p), p, tint, (depth, colors, points), size)
-    depth = depth.reshape(size)
-    lined = colors.reshape(rows, columns, 3) * _edges(depth)[..., None]
-    return DepthRaster(lined, points.reshape(rows, columns, 3))
+            _put(project(p), p, tint, pixels, size)
+    depth = pixels.depth.reshape(size)
+    lined = pixels.colors.reshape(rows, columns, 3) * _edges(depth)[..., None]
+    return DepthRaster(lined, pixels.points.reshape(rows, columns, 3))
 
 
 def _small(faces: Faces, project: Project) -> Faces:
@@ -179,20 +180,23 @@ def _shares(cut: int) -> Array:
     return np.asarray(np.column_stack([i, j, cut - i - j]) / cut)
 
 
-def _put(
-    page: OnPage, p: Array, tint: Array, into: tuple[Array, Array, Array], size: tuple[int, int]
-) -> None:
-    """Write points into the pixels in which they are the nearest so far.
+class _Pixels(NamedTuple):
+    """Depths (P,), colours (P, 3) and points (P, 3) of pixels, row by row."""
 
-    into : depths, colours and points of the pixels
-    """
+    depth: Array
+    colors: Array
+    points: Array
+
+
+def _put(page: OnPage, p: Array, tint: Array, pixels: _Pixels, size: tuple[int, int]) -> None:
+    """Write points into the pixels in which they are the nearest so far."""
     rows, columns = size
     column, row = page.at[:, 0], page.at[:, 1]
     ok = np.flatnonzero(
         np.isfinite(page.depth) & (column >= 0.0) & (column < columns) & (row >= 0.0) & (row < rows)
     )
     pixel, depth = row[ok].astype(int) * columns + column[ok].astype(int), page.depth[ok]
-    nearer = depth < into[0][pixel]
+    nearer = depth < pixels.depth[pixel]
     ok, pixel, depth = ok[nearer], pixel[nearer], depth[nearer]
     # The last point written to a pixel stays. The order makes it the nearest, and the first of equally near
     # ones.
@@ -200,9 +204,9 @@ def _put(
     last = np.full(rows * columns, -1)
     last[pixel[order]] = order
     last = last[last >= 0]
-    into[0][pixel[last]] = depth[last]
-    into[1][pixel[last]] = tint[ok[last]]
-    into[2][pixel[last]] = p[ok[last]]
+    pixels.depth[pixel[last]] = depth[last]
+    pixels.colors[pixel[last]] = tint[ok[last]]
+    pixels.points[pixel[last]] = p[ok[last]]
 
 
 def _edges(depth: Array) -> Array:

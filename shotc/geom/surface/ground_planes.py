@@ -125,7 +125,7 @@ def _slopes(hulls: Array, places: Array, begin: IntArray) -> Array:
     for _ in range(MOST_PIVOTS):
         slope[active], height = _plane(basis[active])
         above = places[:, 2] - dot(places[:, :2], slope[owner])
-        enters, depth = _deepest(hulls, places, (slope, above, begin))
+        enters, depth = _deepest(hulls, places, slope, above, begin)
         deeper = depth[active] < height - DEEPER_M
         active = active[deeper]
         if not len(active):
@@ -134,9 +134,11 @@ def _slopes(hulls: Array, places: Array, begin: IntArray) -> Array:
     return slope
 
 
-def _deepest(hulls: Array, places: Array, planes: tuple[Array, Array, IntArray]) -> tuple[Array, Array]:
-    """Return the deepest differences (P, 3) for the slopes, and their heights, (P,)."""
-    slope, above, begin = planes
+def _deepest(hulls: Array, places: Array, slope: Array, above: Array, begin: IntArray) -> tuple[Array, Array]:
+    """Return the deepest differences (P, 3) for slopes (P, 2), and their heights, (P,).
+
+    above : heights of the places above the planes through the origin, (K,); begin : first place of each hull
+    """
     under = hulls[..., 2] - np.einsum("pmd,pd->pm", hulls[..., :2], slope)
     point = hulls[np.arange(len(hulls)), under.argmin(axis=1)]
     highest = np.maximum.reduceat(above, begin)

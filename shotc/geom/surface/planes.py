@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -75,7 +76,7 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
         planes.append(
             Planes(piece[near], surface.source[chosen[near]], normal[near], behind[near] + clearance, none)
         )
-        pairs, far = _still_before(surface, pairs, far, (piece, normal, behind))
+        pairs, far = _still_before(surface, pairs, far, _Cuts(piece, normal, behind))
     crowded = none.copy()
     crowded[pairs.item] = True
     return _together(planes, crowded)
@@ -106,14 +107,19 @@ def _candidates(surface: Surface, hulls: Array, reach: float) -> tuple[Pairs, Ar
     return pairs, far
 
 
-def _still_before(
-    surface: Surface, pairs: Pairs, far: Array, planes: tuple[IntArray, Array, Array]
-) -> tuple[Pairs, Array]:
-    """Return the pairs whose triangles are not behind the new planes, one a piece."""
-    piece, normal, behind = planes
-    which = np.searchsorted(piece, pairs.item)
-    reaches = support(surface.triangles[pairs.triangle], normal[which])
-    keep = reaches > behind[which] + TOUCHES_M
+class _Cuts(NamedTuple):
+    """New planes, one a piece: the pieces, ascending, the unit normals, and the offsets, metres."""
+
+    piece: IntArray
+    normal: Array
+    offset: Array
+
+
+def _still_before(surface: Surface, pairs: Pairs, far: Array, cuts: _Cuts) -> tuple[Pairs, Array]:
+    """Return the pairs whose triangles are not behind the new planes."""
+    which = np.searchsorted(cuts.piece, pairs.item)
+    reaches = support(surface.triangles[pairs.triangle], cuts.normal[which])
+    keep = reaches > cuts.offset[which] + TOUCHES_M
     return pairs.pick(keep), far[keep]
 
 

@@ -38,8 +38,12 @@ SHORTEST_S = 1e-3
 DEGREE = 3
 
 
-Key = tuple[float, list[float], list[list[float]]]
-"""A time, s, a position, m, and the control points of the curve that ends there."""
+class Key(NamedTuple):
+    """A time, s, a position, m, and the control points of the curve that ends there."""
+
+    time: float
+    place: list[float]
+    control: list[list[float]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,15 +163,15 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
         refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
     keys, begin = _keys(path, where)
     value = settings.get("home")
-    home = value if _is_place(value) else keys[0][1]
-    times = np.array([key[0] for key in keys]) + begin
-    curves = [[a[1], *b[2], b[1]] for a, b in pairwise(keys)]
+    home = value if _is_place(value) else keys[0].place
+    times = np.array([key.time for key in keys]) + begin
+    curves = [[a.place, *b.control, b.place] for a, b in pairwise(keys)]
     if times[0] > 0.0:  # the drone stands until its first key
         times = np.append(0.0, times)
-        curves.insert(0, [keys[0][1], keys[0][1]])
+        curves.insert(0, [keys[0].place, keys[0].place])
     elif len(keys) == 1:
         times = np.array([0.0, 1.0])
-        curves = [[keys[0][1], keys[0][1]]]
+        curves = [[keys[0].place, keys[0].place]]
     light = _light(archive, settings, element, float(times[-1])) if lit else None
     places, at_home = _turned(_cubics(curves), turn), _turned(np.array(home, dtype=float), turn)
     return ShowFlight(name, element, at_home, times, places, light)
@@ -197,13 +201,14 @@ def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:
         refuse(BROKEN, f"`{where}.takeoffTime` is no time", WHOLE)
     keys = [_key(point, f"{where}.points[{i}]") for i, point in enumerate(points)]
     for i, (a, b) in enumerate(pairwise(keys)):
-        if b[0] - a[0] < SHORTEST_S:
-            message = f"the time of `{where}.points[{i + 1}]`, {b[0]:g} s, does not come after {a[0]:g} s"
+        if b.time - a.time < SHORTEST_S:
+            late = f"the time of `{where}.points[{i + 1}]`, {b.time:g} s,"
+            message = f"{late} does not come after {a.time:g} s"
             refuse(BROKEN, message, WHOLE)
-    if keys[0][0] + begin < 0.0:
+    if keys[0].time + begin < 0.0:
         refuse(BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE)
-    if keys[-1][0] + begin > LONGEST_S:
-        refuse(BROKEN, f"`{where}` lasts until {keys[-1][0] + begin:g} s, which is no flight", WHOLE)
+    if keys[-1].time + begin > LONGEST_S:
+        refuse(BROKEN, f"`{where}` lasts until {keys[-1].time + begin:g} s, which is no flight", WHOLE)
     return keys, float(begin)
 
 
@@ -219,7 +224,7 @@ def _key(point: Any, where: str) -> Key:
     for name, at in (("the place", place), *((f"control point {i + 1}", p) for i, p in enumerate(control))):
         if not _is_place(at):
             refuse(BROKEN, f"{name} of `{where}` is no list of 3 finite numbers", WHOLE)
-    return float(time), place[:3], [each[:3] for each in control]
+    return Key(float(time), place[:3], [each[:3] for each in control])
 
 
 def _cubics(curves: list[list[list[float]]]) -> Array:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -233,9 +234,19 @@ def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
             yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
 
 
-def _timing(leg: PathLeg) -> tuple[float, float, float | None, float | None, KeyPath]:
+class _Timing(NamedTuple):
+    """What the mission says about the time of a leg."""
+
+    pace: float
+    smoother: float
+    duration: float | None
+    start: float | None
+    path: KeyPath
+
+
+def _timing(leg: PathLeg) -> _Timing:
     shares = (1.0, 1.0) if isinstance(leg, HoldLeg) else (leg.pace, leg.smoother)
-    return *shares, leg.duration, leg.start, leg.path
+    return _Timing(*shares, leg.duration, leg.start, leg.path)
 
 
 def _holds(leg: PathLeg) -> list[float]:

@@ -11,8 +11,6 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import LIMIT_TOLERANCE
 from shotc.units import clip
 
-Key = tuple[str, str | None, str]
-
 _VERDICTS = {
     "holds": ("holds", "is broken"),
     "hard": ("is required", "is not required"),
@@ -24,8 +22,8 @@ def certificate_differences(
     written: Sequence[Claim], proved: Sequence[Claim], *, same_tool: bool
 ) -> Iterator[str]:
     """Yield the differences of a written certificate; another version of shotc may make other claims."""
-    old, new = {_key(c): c for c in written}, {_key(c): c for c in proved}
-    for key, times in Counter(map(_key, written)).items():
+    old, new = {c.key: c for c in written}, {c.key: c for c in proved}
+    for key, times in Counter(c.key for c in written).items():
         if times > 1:
             yield f"{_name(old[key])} stands {times} times in the certificate"
     for key, claim in new.items():
@@ -39,10 +37,6 @@ def certificate_differences(
                 yield f"{_name(claim)} is in the certificate, but follows from nothing in the plan"
         if old.keys() == new.keys() and list(old) != list(new):
             yield "the claims of the certificate are in another order"
-
-
-def _key(claim: Claim) -> Key:
-    return (claim.subject, claim.shot, claim.constraint)
 
 
 def _name(claim: Claim) -> str:

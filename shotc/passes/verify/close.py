@@ -124,7 +124,7 @@ def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, lim
         )
 
     def closed(a: Array, b: Array, dt: Array) -> Mask:
-        fastest = _screen_rate(bound, flight.drone.aspect, (a, b, dt)) + moving
+        fastest = _screen_rate(bound, flight.drone.aspect, a, b, dt) + moving
         return np.asarray(a[:, 0] + b[:, 0] + fastest * dt <= 2 * limit)
 
     return _closes(
@@ -132,14 +132,15 @@ def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, lim
     )
 
 
-def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) -> Array:
+def _screen_rate(bound: Rates, aspect: float, a: Array, b: Array, dt: Array) -> Array:
     """Return bounds of the rate of the centre's place on screen within intervals, (u, v) units a second.
 
     With x right (or down), f forward and w the half screen, u = x / (f w); the camera-frame coordinates
     change by at most V = speed + far turn, so |du| <= V sqrt(1 + (u w)^2) / (f w) + |u| |dw| / w. Columns 1
     to 3 of the samples are u w f, v w f (with w of the width for both) and f.
+
+    a, b : samples at the ends of the intervals, (M, 4); dt : their lengths, seconds, (M,)
     """
-    a, b, dt = span
     travel = bound.speed + bound.far * bound.turn
     drift = travel * dt
     depth = np.maximum(0.5 * (a[:, 3] + b[:, 3] - drift), 1e-9)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -122,7 +123,7 @@ def _screen_error(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]
         return
     error = np.where(known, view.error, -inf)
     k = int(np.argmax(error))
-    claim = _sampled(flight, view, ("screen error", "screen_error", promised), (float(error[k]), k))
+    claim = _sampled(flight, view, _Promise("screen error", "screen_error", promised), (float(error[k]), k))
     if promised is not None and claim.holds:
         times = view.times[known]
         if errors_close(flight, view.shot.id, view.target, times, promised):
@@ -137,13 +138,22 @@ def _size(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]:
         known = np.where(np.isnan(size), unseen, size)
         k = int(pick(known))
         bound = None if promised is None else promised[name == "largest"]
-        yield _sampled(flight, view, (f"size {name}", "size", bound), (float(known[k]), k))
+        yield _sampled(flight, view, _Promise(f"size {name}", "size", bound), (float(known[k]), k))
+
+
+class _Promise(NamedTuple):
+    """What is claimed, the key of ``require`` about it, and its value, None where the mission has none."""
+
+    name: str
+    key: str
+    value: float | None
 
 
 def _sampled(
-    flight: JudgedFlight, view: FramingSamples, what: tuple[str, str, float | None], worst: tuple[float, int]
+    flight: JudgedFlight, view: FramingSamples, promise: _Promise, worst: tuple[float, int]
 ) -> Claim:
-    name, key, promised = what
+    """Return the claim of the worst value, given with the index of its sample."""
+    name, key, promised = promise
     upper = name != "size smallest"
     limit = Limit(
         f"{view.target} {name}",

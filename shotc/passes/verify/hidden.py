@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     others, eyes = others_of(bodies(ir), track.drone), track.curve(times)[:, :3]
     named, shares = parts_before(mission, target), list[tuple[str, Array]]()
     for what, share in coverage(mission, others, target, eyes, times).by:
-        parts = _by_name(mission, named[what], target, (eyes, times, share)) if what in named else []
+        parts = _by_name(mission, named[what], target, _Views(eyes, times, share)) if what in named else []
         if len(parts) != 1:
             sort, _, name = what.partition(" ")
             shares.append((f"{sort} `{name}`", share))
@@ -56,14 +57,19 @@ def nowhere_seen(mission: MissionIR, phase: Phase) -> Iterator[str]:
         yield f"places all round, as far as the framing leaves them free, were tried: none shows {what}"
 
 
-def _by_name(
-    mission: MissionIR, of: NamedParts, target: str, seen: tuple[Array, Array, Array]
-) -> list[tuple[str, Array]]:
-    """Return the parts of a mesh that hide a target, by name, the worst first, and the share that each hides.
+class _Views(NamedTuple):
+    """Eyes (M, 3), mission times (M,), and the share of a target that a whole mesh hides from them, (M,)."""
 
-    seen : eyes, (M, 3), mission times, (M,), and the share that the whole mesh hides, (M,)
+    eyes: Array
+    times: Array
+    share: Array
+
+
+def _by_name(mission: MissionIR, of: NamedParts, target: str, views: _Views) -> list[tuple[str, Array]]:
+    """Return the parts of a mesh that hide a target, by name, the worst first, and the share that each
+    hides.
     """
-    eyes, times, share = seen
+    eyes, times, share = views
     hides, owner = share > 0.0, mesh_owner(of.mesh)
     if not hides.any():
         return []

@@ -84,7 +84,7 @@ def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> t
     """Return the motions with the clearances of transfers on the unfilmed pieces of a course."""
     filmed = _filmed(course, span)
     before = course.breaks[:-1] < span[0]
-    return tuple(_widened(motion, course, (span, filmed, before)) for motion in motions)
+    return tuple(_widened(motion, course, span, filmed, before) for motion in motions)
 
 
 def standing_apart(
@@ -114,8 +114,11 @@ def _standing(motion: LinearMotion, course: Piecewise, film: float, stands: Arra
     return replace(motion, wide=np.maximum(taper.needs(relative_to(motion, stands)), motion.what.clearance))
 
 
-def _widened(motion: LinearMotion, course: Piecewise, parts: tuple[Span, Mask, Mask]) -> LinearMotion:
-    span, filmed, before = parts
+def _widened(motion: LinearMotion, course: Piecewise, span: Span, filmed: Mask, before: Mask) -> LinearMotion:
+    """Return a motion with the clearances of transfers.
+
+    filmed, before : which pieces of the course are filmed, and which begin before the film, (P,)
+    """
     what, points = motion.what, course.ctrl[:, :, :3]
     relative, wide = relative_to(motion, points), np.full(points.shape[:2], what.clearance)
     for film, which in ((span[0], ~filmed & before), (span[1], ~filmed & ~before)):

@@ -150,7 +150,7 @@ def along_of(axis_direction: Way, center: Vec3 | None, stage: EffectContext) -> 
 
 def _seen(direction: Way, stage: EffectContext) -> Vec3:
     """Return the horizontal direction of a word that is relative to the audience."""
-    right, _, _ = _axes(stage)
+    right = _axes(stage).right
     level = np.array([-right[1], right[0], 0.0])
     return _vec({"right": right, "left": -right, "away": level, "near": -level}[direction])
 
@@ -162,13 +162,21 @@ def _eye(stage: EffectContext) -> Array:
     return np.asarray(middle - np.array([0.0, FAR_M, 0.0]))
 
 
-def _axes(stage: EffectContext) -> tuple[Array, Array, Array]:
-    """Return right, up and forward of a viewer who looks at the middle of the picture."""
+class _ViewAxes(NamedTuple):
+    """Unit vectors of a viewer, (3,) each."""
+
+    right: Array
+    up: Array
+    forward: Array
+
+
+def _axes(stage: EffectContext) -> _ViewAxes:
+    """Return the axes of a viewer who looks at the middle of the picture."""
     look = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0 - _eye(stage)
     forward = look / max(float(np.linalg.norm(look)), 1e-9)
     level = float(np.hypot(forward[0], forward[1]))
     right = np.array([forward[1], -forward[0], 0.0]) / level if level > 1e-6 else np.array([1.0, 0.0, 0.0])
-    return right, np.cross(right, forward), forward
+    return _ViewAxes(right, np.cross(right, forward), forward)
 
 
 def _footage(image: Image, stage: EffectContext, times: Times) -> Footage:

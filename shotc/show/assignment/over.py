@@ -20,7 +20,7 @@ from shotc.planning.over_ground import OUTSIDE_M
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Ends, Heights, flown_of
 from shotc.show.goals.room import DisplaySurroundings, RoomLack
-from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, rising_paths
+from shotc.show.solvers.lifted_move import Course, Drive, LiftedMove, lifted, rising_paths
 
 ROUNDS = 6
 """Most heights that are tried, each higher by what the one before lacks."""
@@ -74,7 +74,7 @@ def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
     course : its path, as seen from above
     """
     best: LiftedCandidate | None = None
-    drive = task.limits, task.pace, task.easing
+    drive = Drive(task.limits, task.pace, task.easing)
     for every in (False, True):
         need = partial(_need, ends, course.pivot, task.sky.surroundings, every=every)
         paths, higher = rising_paths(ends, course, need), 0.0

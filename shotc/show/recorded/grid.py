@@ -165,7 +165,8 @@ def between(curve: Piecewise, marks: Array) -> Array:
     return np.stack([_blossom(ctrl, args) for args in ((u, u, u), (u, u, v), (u, v, v), (v, v, v))], axis=1)
 
 
-def _blossom(ctrl: Array, at: tuple[Array, Array, Array]) -> Array:
+def _blossom(ctrl: Array, at: Sequence[Array]) -> Array:
+    """Return the blossom of cubics (M, 4, 3) at three arguments, (M,) each."""
     for share in at:
         x = share[:, None, None]
         ctrl = (1.0 - x) * ctrl[:, :-1] + x * ctrl[:, 1:]

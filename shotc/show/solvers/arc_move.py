@@ -157,6 +157,16 @@ def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
     return np.asarray(passed / passed[-1])
 
 
+class MotionLimits(NamedTuple):
+    """Limits of a drone, SI."""
+
+    speed: float
+    climb: float
+    descent: float
+    acceleration: float
+    jerk: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Drones:
     """Drones, each at the sum of its parts times scalars that all have in common, and their limits.
@@ -165,15 +175,14 @@ class Drones:
     """
 
     parts: tuple[Array, ...]
-    ceilings: tuple[float, float, float, float, float]
+    ceilings: MotionLimits
 
     @staticmethod
     def of(ends: tuple[Array, Array], pivot: Array, limits: Limits, pace: float) -> Drones:
         """Return the drones of two formations, shape (n, 3) each, with a share of every limit."""
         scale = LIMIT_SHARE * pace
         most = (limits.speed, limits.climb, limits.descent, limits.usable_acceleration, limits.jerk)
-        speed, climb, descent, acceleration, jerk = (scale * m for m in most)
-        return Drones((ends[0] - pivot, ends[1] - pivot), (speed, climb, descent, acceleration, jerk))
+        return Drones((ends[0] - pivot, ends[1] - pivot), MotionLimits(*(scale * m for m in most)))
 
     def busiest(self) -> Drones:
         """Return the drones of which one is always the busiest, whatever the path; the others are never
@@ -255,7 +264,7 @@ class Drones:
         if order == 1:
             across = np.sqrt(moved[..., 0] ** 2 + moved[..., 1] ** 2)
             up = moved[..., 2]
-            speed, climb, descent = self.ceilings[:3]
-            return np.stack([across / speed, up / climb, -up / descent], axis=-1)
-        most = self.ceilings[order + 1]
-        return np.asarray(np.sqrt(np.einsum("...d,...d->...", moved, moved))[..., None] / most)
+            most = self.ceilings
+            return np.stack([across / most.speed, up / most.climb, -up / most.descent], axis=-1)
+        bound = self.ceilings.acceleration if order == 2 else self.ceilings.jerk
+        return np.asarray(np.sqrt(np.einsum("...d,...d->...", moved, moved))[..., None] / bound)

@@ -174,26 +174,32 @@ def rising_paths(
     return paths
 
 
+class Drive(NamedTuple):
+    """How drones may move; pace : the used share of the limits."""
+
+    limits: Limits
+    pace: float
+    easing: Easing
+
+
 def lifted(
     ends: tuple[Array, Array],
     course: Course,
     paths: Iterable[RisingPath],
-    drive: tuple[Limits, float, Easing],
+    drive: Drive,
 ) -> LiftedMove | None:
     """Return the shortest move found with the required rise, or None if there is none.
 
     ends : positions before and after, shape (n, 3) each
     course : the allowed (a, b)
     paths : those of ``rising_paths``
-    drive : the limits, the used share of them, and the easing
     """
-    limits, pace, easing = drive
-    drones = Drones.of(ends, course.pivot, limits, pace)
+    drones = Drones.of(ends, course.pivot, drive.limits, drive.pace)
     busy, far = drones.busiest(), _farthest(ends)
     best = LiftedShape(np.zeros((0, 2)), np.zeros(0), inf)
     for path in paths:
         for line in _lines(far, path.rise):
-            best = min(best, _fastest(busy, course, path, line, easing), key=lambda one: one.seconds)
+            best = min(best, _fastest(busy, course, path, line, drive.easing), key=lambda one: one.seconds)
     if not np.isfinite(best.seconds):
         return None
     ctrl = course.kept(best.ctrl)

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -47,6 +48,14 @@ class Gains:
         return self.reach == inf
 
 
+class PlannedMotion(NamedTuple):
+    """Position, velocity and acceleration of each drone, (n, 3) each, metres and seconds."""
+
+    place: Array
+    rate: Array
+    bend: Array
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetReference:
     """The trajectories of a fleet.
@@ -65,8 +74,8 @@ class FleetReference:
         """Return the reference of splines as in ``geom.fleet_spline``."""
         return FleetReference(breaks, pieces(breaks, coef), places_of(breaks, coef))
 
-    def each(self, times: Array) -> tuple[Array, Array, Array]:
-        """Return position, velocity and acceleration, (n, 3) each, of every drone at its own time (n,)."""
+    def each(self, times: Array) -> PlannedMotion:
+        """Return the motion of every drone at its own time, (n,)."""
         times = np.clip(times, self.breaks[0], self.breaks[-1])
         piece = np.clip(np.searchsorted(self.breaks, times, side="right") - 1, 0, len(self.breaks) - 2)
         width = np.diff(self.breaks)[piece][:, None]
@@ -76,7 +85,7 @@ class FleetReference:
         place = v**3 * a + 3 * v * v * u * b + 3 * v * u * u * c + u**3 * d
         rate = 3.0 * (v * v * (b - a) + 2 * v * u * (c - b) + u * u * (d - c)) / width
         bend = 6.0 * (v * (c - 2 * b + a) + u * (d - 2 * c + b)) / width**2
-        return place, rate, bend
+        return PlannedMotion(place, rate, bend)
 
 
 def preferred(reference: FleetReference, gains: Gains, now: float, position: Array, velocity: Array) -> Array:

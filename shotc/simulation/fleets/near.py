@@ -7,6 +7,7 @@ dense: within a period a drone deviates from the straight line by millimetres.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,14 @@ class ClosestPair:
     below: int
 
 
+class _BothFleets(NamedTuple):
+    """Scaled positions (n, 3) and (m, 3) of two fleets at a time, seconds."""
+
+    time: float
+    one: Array
+    other: Array
+
+
 class Across:
     """The nearest pair of drones from different fleets, whose positions (n, 3) and (m, 3) are added over
     time.
@@ -52,21 +61,21 @@ class Across:
         self._limit = limit
         self._best = ClosestPair(np.inf, 0, 0, 0.0, 0)
         self._low: set[tuple[int, int]] = set()
-        self._last: tuple[float, Array, Array] | None = None
+        self._last: _BothFleets | None = None
 
     def add(self, time: float, one: Array, other: Array) -> None:
         """Add the positions (n, 3) and (m, 3) of both fleets at a later time."""
-        one, other = one * self._height, other * self._height
+        now = _BothFleets(time, one * self._height, other * self._height)
         if self._last is not None:
-            self._between(*self._last, (time, one, other))
-        self._last = (time, one, other)
+            self._between(self._last, now)
+        self._last = now
 
     def nearest(self) -> ClosestPair:
         """Return the nearest pair so far; ``first`` is a row of the one fleet, ``second`` of the other."""
         return replace(self._best, below=len(self._low))
 
-    def _between(self, before: float, one: Array, other: Array, then: tuple[float, Array, Array]) -> None:
-        after, one_end, other_end = then
+    def _between(self, start: _BothFleets, end: _BothFleets) -> None:
+        (before, one, other), (after, one_end, other_end) = start, end
         trees = cKDTree(0.5 * (one + one_end)), cKDTree(0.5 * (other + other_end))
         moves = (one_end - one, other_end - other)
         moved = sum(float(np.linalg.norm(move, axis=1).max()) for move in moves)

@@ -67,7 +67,7 @@ def _rows(task: HeadingTask) -> tuple[Array, Array]:
         quadratic[1, [i, i + 1, count + i, count + i + 1]] = [-3 / h, 3 / h, -1.0, -1.0]
         if np.isfinite(task.rate):
             for k in range(PIECE_PARTS):
-                rows += list(_blossom(quadratic, k / PIECE_PARTS, (k + 1) / PIECE_PARTS))
+                rows += _blossom(quadratic, k / PIECE_PARTS, (k + 1) / PIECE_PARTS)
                 limits += [task.rate] * 3
         if np.isfinite(task.acceleration):
             rows += list(np.diff(quadratic, axis=0) * 2 / h)
@@ -75,10 +75,10 @@ def _rows(task: HeadingTask) -> tuple[Array, Array]:
     return np.array(rows), np.array(limits)
 
 
-def _blossom(points: Array, a: float, b: float) -> tuple[Array, Array, Array]:
+def _blossom(points: Array, a: float, b: float) -> list[Array]:
     """Return the Bernstein points of a quadratic's part from a to b of [0, 1]."""
     at = {t: (1 - t) * points[:-1] + t * points[1:] for t in (a, b)}
-    return tuple((1 - s) * at[t][0] + s * at[t][1] for t, s in ((a, a), (a, b), (b, b)))
+    return [(1 - s) * at[t][0] + s * at[t][1] for t, s in ((a, a), (a, b), (b, b))]
 
 
 def _least(base: Array, spread: Array, limits: Array) -> Array | None:

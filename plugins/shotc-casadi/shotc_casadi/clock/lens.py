@@ -160,7 +160,7 @@ def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
     for one in subject.framed:
         if cropped_on_purpose(one):
             continue
-        box = np.array(_outline(subject, one, t, pose))
+        box = _outline(subject, one, t, pose)
         middle = np.zeros((2, len(t))) if subject.together else _places(subject, one, t)
         for axis, edge, inwards in ((0, 0, -1.0), (0, 1, 1.0), (1, 2, -1.0), (1, 3, 1.0)):
             margin = viewpoint.EDGE_SHARE - inwards * middle[axis]
@@ -180,18 +180,17 @@ def _places(subject: ClockSubject, one: PlacedSubject, t: Array) -> Array:
     return places
 
 
-def _outline(
-    subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array
-) -> tuple[Array, Array, Array, Array]:
-    """Return left, right, low and high of a subject's outline at times, half frames; NaN behind the
-    camera.
+def _outline(subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array) -> Array:
+    """Return left, right, low and high of a subject's outline at times, half frames, shape (4, N + 1).
+
+    They are NaN behind the camera.
     """
     target = subject.mission.target(one.target)
     offset = (np.array([target.at(float(u)) for u in t]) - pose[:, :3]).T
     yaw, pitch, half = pose[:, CAM_YAW], pose[:, CAM_PITCH], np.tan(pose[:, HFOV] / 2)
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / subject.drone.aspect)
     x, y, z = offset
-    return shapes(target, t).bounds(camera, (x, y, z))
+    return np.array(shapes(target, t).bounds(camera, (x, y, z)))
 
 
 def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:

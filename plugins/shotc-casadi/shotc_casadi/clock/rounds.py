@@ -272,25 +272,33 @@ def _refined(shot: _Shot, now: _Round) -> ClockRefined:
     name, best = shot.subject.leg.shot, now.best
     if best is None:
         return ClockRefined(name, None, shot.breaks, now.rounds, now.last, now.seconds, now.first, now.gap)
-    whole, costs, gap = _weighed(shot.subject, best)
-    return ClockRefined(
-        name, whole, shot.breaks, now.rounds, best.solution, now.seconds, now.first, gap, costs
-    )
+    leg, costs, gap = _weighed(shot.subject, best)
+    return ClockRefined(name, leg, shot.breaks, now.rounds, best.solution, now.seconds, now.first, gap, costs)
 
 
-def _weighed(
-    subject: ClockSubject, best: _Best
-) -> tuple[ClockLeg | None, tuple[float, float] | None, UnprovedMoment | None]:
-    """Return the best leg unless it is worse than the guide, the costs, and what stands against it."""
+class _Weighed(NamedTuple):
+    """The best leg compared with the guide.
+
+    leg : None if it is worse than the guide, or fails
+    costs : of the leg and of the guide; None where they are not compared
+    gap : where the leg fails
+    """
+
+    leg: ClockLeg | None
+    costs: tuple[float, float] | None = None
+    gap: UnprovedMoment | None = None
+
+
+def _weighed(subject: ClockSubject, best: _Best) -> _Weighed:
     leg, whole = subject.leg, _filmed(subject, best.position, best.solution)
     if whole is None:
-        return None, None, UnprovedMoment(leg.start, "the camera's limits", float("nan"), "")
+        return _Weighed(None, None, UnprovedMoment(leg.start, "the camera's limits", float("nan"), ""))
     if not subject.together:
         worse = astray(subject, whole) > max(ALLOWED_RAD, astray(subject, leg))
-        return None if worse else whole, None, None
+        return _Weighed(None if worse else whole)
     breaks = best.position.breaks
     costs = flown_cost(best.task, breaks, whole), flown_cost(best.task, breaks, leg)
-    return None if costs[0] > costs[1] else whole, costs, None
+    return _Weighed(None if costs[0] > costs[1] else whole, costs)
 
 
 def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> ClockLeg | None:

@@ -25,7 +25,7 @@ def test_a_place_on_screen_moves_no_faster_than_is_proved_and_the_bound_is_no_mu
     speed = float(np.linalg.norm(velocity))
     bound = Rates(20.0, 0.5 * speed, 0.5 * speed / 20.0, abs(zoom), float(half.min()), float(half.max()))
     rows = np.column_stack([np.zeros(2001), x, y * ASPECT, forward])
-    found = float(_screen_rate(bound, ASPECT, (rows[:1], rows[-1:], np.array([dt])))[0])
+    found = float(_screen_rate(bound, ASPECT, rows[:1], rows[-1:], np.array([dt]))[0])
     assert fastest <= found * (1.0 + 1e-6) + 1e-9
     direct = np.hypot(speed / (forward.min() * half.min()), ASPECT * speed / (forward.min() * half.min()))
     turned = abs(zoom) * (1.0 + half.max() ** 2) / (2.0 * half.min()) * np.hypot(u, v).max()

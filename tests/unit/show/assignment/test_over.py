@@ -21,7 +21,7 @@ from shotc.show.assignment.over import MoveSurroundings
 from shotc.show.assignment.score import Motion
 from shotc.show.geom.arcs import Gaps
 from shotc.show.goals.room import DisplaySurroundings, RoomLack
-from shotc.show.solvers.lifted_move import Course, LiftedMove, lifted, rising_paths, sampled
+from shotc.show.solvers.lifted_move import Course, Drive, LiftedMove, lifted, rising_paths, sampled
 from shotc.show.solvers.match import matched
 from shotc.show.solvers.move import CommonMove
 from tests.support.display_missions import LIMITS, display, fleet, picture, show
@@ -264,7 +264,7 @@ def test_what_no_height_helps_is_no_move() -> None:
         return np.where((places[:, 1] > 0.4) & (places[:, 1] < 0.6), inf, 0.0)
 
     course = Course(np.zeros(3))
-    assert lifted(ends, course, rising_paths(ends, course, never), (LIMITS, 1.0, "ease-in-out")) is None
+    assert lifted(ends, course, rising_paths(ends, course, never), Drive(LIMITS, 1.0, "ease-in-out")) is None
 
 
 @pytest.mark.slow
@@ -279,7 +279,7 @@ def test_a_height_that_is_asked_for_is_reached_where_it_is(arcs: Gaps | None) ->
         return np.where((along < 1e-6) | (along > 1.0 - 1e-6), 0.0, need)
 
     course = Course(np.array([40.0, 0.0, 30.0]), arcs)
-    move = lifted(ends, course, rising_paths(ends, course, hill), (LIMITS, 1.0, "ease-in-out"))
+    move = lifted(ends, course, rising_paths(ends, course, hill), Drive(LIMITS, 1.0, "ease-in-out"))
     assert move is not None
     a, b, height = (sampled(channel) for channel in (*move.ctrl.T, move.lift))
     assert (height >= hill(np.column_stack([a, b])) - 0.06).all()

@@ -13,6 +13,7 @@ from shotc.show.solvers.lifted_move import (
     STEPS,
     WIDTH_SHARES,
     Course,
+    Drive,
     Rise,
     RisingPath,
     _concave,
@@ -96,7 +97,7 @@ def test_a_fleet_rises_over_a_wall_whatever_its_easing(easing: str) -> None:
     ends = (starts, starts + np.array([FAR_M, 0.0, 0.0]))
     path = RisingPath(np.column_stack([1.0 - SHARE, SHARE]), WALL)
     limits = Limits(5.0, 2.5, 2.0, 2.5, 8.0, 1.0, 1.0)
-    move = lifted(ends, Course(np.zeros(3)), [path], (limits, 1.0, easing))  # type: ignore[arg-type]
+    move = lifted(ends, Course(np.zeros(3)), [path], Drive(limits, 1.0, easing))  # type: ignore[arg-type]
     assert move is not None
     assert WALL_M <= move.height < 1.3 * WALL_M
     share, height = sampled(move.ctrl[:, 1]), sampled(move.lift)

@@ -117,7 +117,7 @@ def check_pictures_beside(mission: MissionIR, display: Display, fleet: Fleet) ->
         for mesh in mission.meshes:
             lack = _lacks(mission, fleet, mesh, shape)
             if lack.max() > ROUNDING_M:
-                yield _reaching(mission, fleet, picture, (mesh, shape, lack))
+                yield _reaching(mission, fleet, picture, _Reach(mesh, shape, lack))
                 break
 
 
@@ -129,10 +129,16 @@ def _lacks(mission: MissionIR, fleet: Fleet, mesh: ObstacleMesh, shape: tuple[Ba
     return np.asarray(need + radii - mesh.signed_distance(centres, reach))
 
 
-def _reaching(
-    mission: MissionIR, fleet: Fleet, picture: Picture, of: tuple[ObstacleMesh, tuple[Ball, ...], Array]
-) -> Diagnostic:
-    mesh, shape, lack = of
+class _Reach(NamedTuple):
+    """A picture's shape that is too near to a mesh; lack : of each ball, metres, (n,)."""
+
+    mesh: ObstacleMesh
+    shape: tuple[Ball, ...]
+    lack: Array
+
+
+def _reaching(mission: MissionIR, fleet: Fleet, picture: Picture, reach: _Reach) -> Diagnostic:
+    mesh, shape, lack = reach
     worst = shape[int(lack.argmax())]
     owner, word = part_owner(mesh, worst.centre), word_of(picture)
     labels: tuple[Label, ...] = (
