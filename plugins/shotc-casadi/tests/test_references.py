@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from math import cos, sin
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
+from shotc_casadi.clock.references import filmed_at
 from shotc_casadi.conditions import ANG, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.references import own_angles, references_at
 
 from shotc.geom.camera import aim_at
 from shotc.geom.shapes import CylinderShape
-from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.path import CAM_PITCH, CAM_YAW, ClockLeg
 from shotc.ir.target import Target
 from tests.support.path_scenes import ASPECT, HFOV, TOWER, framed, free, mission, shot
 from tests.support.records import replace as changed
@@ -83,3 +86,9 @@ def test_the_papers_conditions_pass_through_the_authors_own_angles(condition):
     dense = references_at(of, condition, np.linspace(s[0], s[-1], 200)).aim
     assert np.abs(np.diff(dense, axis=0)).max() < 0.1  # no whole turns
     assert (references.whole == 0).all()
+
+
+def test_nodes_at_the_ends_of_the_film_are_filmed_whatever_their_rounding() -> None:
+    leg = cast("ClockLeg", SimpleNamespace(start=2.0, end=5.0))
+    times = np.array([1.99, 2.0 - 1e-9, 3.0, 5.0 + 1e-9, 5.01])
+    assert filmed_at(leg, times).tolist() == [False, True, True, True, False]

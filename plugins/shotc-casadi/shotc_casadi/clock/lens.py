@@ -30,7 +30,7 @@ from shotc.plugin_api.refiner import (
     viewpoint,
 )
 from shotc_casadi.clock.curve import filmed
-from shotc_casadi.clock.references import ClockSubject, seen_at
+from shotc_casadi.clock.references import ClockSubject, filmed_at, seen_at
 from shotc_casadi.clock.shown import cropped_on_purpose
 from shotc_casadi.lens import SAME_SHARE, lens_bounds
 
@@ -85,7 +85,7 @@ def zoomed(subject: ClockSubject, leg: ClockLeg) -> ClockLeg | None:
 
 def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
     """Return the task of the lens, None if the given field of view is as good."""
-    film = (t >= leg.start - SAME_S) & (t <= leg.end + SAME_S)
+    film = filmed_at(leg, t)
     pose = leg.curve(t)
     given = pose[:, HFOV]
     reference = np.where(film, _reference(subject, leg, t, pose), given)

@@ -42,6 +42,7 @@ NO_SUBJECT_M = 100.0  # the target of a shot without a subject is this far east 
 PREFERRED_SHARE = 0.98 * MOST_MOVED  # less than MOST_MOVED, because of the motion between nodes
 LOOKS_PER_STAGE = 8  # samples of an ideal, a stage
 INNER_M = 0.005  # metres beyond the guide's distance that are allowed: a constraint needs an interior
+AT_END_S = 1e-6  # seconds by which a node at an end of the film may be rounded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -174,7 +175,7 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
     if watched is None or (keyed and _over(subject, centres, ideal)):
         return unwatched
     target = np.mean([motion(subject.mission, one.target, t) for one in subject.framed], axis=0)
-    filmed = (t >= subject.leg.start) & (t <= subject.leg.end)
+    filmed = filmed_at(subject.leg, t)
     usual = max(NEAREST_M, float(np.median(np.linalg.norm(target[filmed, :3] - ideal[filmed], axis=1))))
     off = np.linalg.norm(subject.leg.curve(t)[filmed, :3] - ideal[filmed], axis=1).max()
     yields = shot.ideal is not None and shot.ideal.framed and bool(off > KEPT_SHARE * usual)
@@ -206,9 +207,14 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
         .min(axis=0)
     )
     guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER_M
-    film = (t >= leg.start) & (t <= leg.end)
+    film = filmed_at(leg, t)
     nearest = np.minimum(np.append(stages, np.inf), np.append(np.inf, stages))
     return np.where(film, np.maximum(nearest, guide), np.inf)
+
+
+def filmed_at(leg: ClockLeg, t: Array) -> Mask:
+    """Return which mission times (M,) are in the film, its ends included, shape (M,)."""
+    return np.asarray((t >= leg.start - AT_END_S) & (t <= leg.end + AT_END_S))
 
 
 def _ideal_at(subject: ClockSubject, t: Array) -> Array:

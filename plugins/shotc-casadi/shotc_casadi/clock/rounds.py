@@ -28,7 +28,7 @@ from shotc_casadi.clock.occluders import Occluder, hides_anew, with_occluders
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import UnprovedMoment, astray, gap_in
-from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
+from shotc_casadi.clock.references import ClockReferences, ClockSubject, filmed_at, references_at
 from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import Overflight, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
@@ -162,7 +162,7 @@ def refine_clock(
     """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
-    filmed = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
+    filmed = filmed_at(subject.leg, breaks)
     shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), filmed, unseen, bounded)
     now = _begun(shot)
     while not now.ended and now.rounds < MOST_ROUNDS:

@@ -22,7 +22,7 @@ from shotc.plugin_api.refiner import (
     wanted_places,
 )
 from shotc_casadi.clock.occluders import farthest_past, occluders_of
-from shotc_casadi.clock.references import ClockSubject, references_at
+from shotc_casadi.clock.references import ClockSubject, filmed_at, references_at
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.covered import GAIN_SHARE, UncoveredShare, broken, free_of, lost
 
@@ -78,7 +78,7 @@ def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool =
 
 def _too_far(subject: ClockSubject, leg: ClockLeg, breaks: Array) -> bool:
     """Return whether a camera goes farther from its ideal place than verification accepts."""
-    references, filmed = references_at(subject, breaks), (breaks >= leg.start) & (breaks <= leg.end)
+    references, filmed = references_at(subject, breaks), filmed_at(leg, breaks)
     off = np.linalg.norm(leg.curve(breaks)[:, :3] - references.ideal, axis=1)
     return bool(off[filmed].max() > farthest_past(references, filmed))
 
