@@ -59,7 +59,7 @@ def _shot(change: ShotChange) -> tuple[str, ...]:
 
 def _fleet(change: FleetChange) -> tuple[str, ...]:
     drones = _arrow(*("none" if count is None else str(count) for count in change.drones))
-    return (change.fleet, drones, _seconds(change.lasts))
+    return (change.fleet, drones, _seconds(change.duration))
 
 
 def _seconds(pair: tuple[float | None, float | None]) -> str:

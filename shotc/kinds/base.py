@@ -77,7 +77,7 @@ class Expansion(NamedTuple):
     """The expansion of a shot: keyframes in the order of flight, or the diagnostics that prevent it.
 
     ideal, subjects : instead of keyframes, for a moving target
-    lasts : default duration of such a shot, seconds
+    duration : default duration of such a shot, seconds
     display : instead of all these, for a fleet
     """
 
@@ -86,7 +86,7 @@ class Expansion(NamedTuple):
     deferred: tuple[Deferred, ...] = ()
     ideal: Ideal | None = None
     subjects: tuple[Subject, ...] = ()
-    lasts: float | None = None
+    duration: float | None = None
     display: "Display | None" = None
 
     @classmethod

@@ -34,18 +34,18 @@ def timed(
     scene: Scene,
     ideal: Ideal,
     subjects: tuple[Subject, ...] | None = None,
-    lasts: float | None = None,
+    duration: float | None = None,
 ) -> Expansion:
     """Return the expansion of a shot on its own clock, which needs a duration.
 
-    subjects : None for the shot's own target; lasts : default duration, seconds, or None
+    subjects : None for the shot's own target; duration : the default one, seconds, or None
     """
-    if shot.timing.duration is None and lasts is None:
+    if shot.timing.duration is None and duration is None:
         message = f"how long does this {shot.kind} last? its target moves, so its time is the mission's"
         return Expansion.of([scene.lasting("M003", message, "kind")])
     if subjects is None:
         subjects = () if shot.target is None else (scene.framed(shot, shot.target),)
-    return Expansion(ideal=ideal, subjects=subjects, lasts=lasts)
+    return Expansion(ideal=ideal, subjects=subjects, duration=duration)
 
 
 def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
@@ -53,7 +53,7 @@ def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
 
     Without another duration, the last keyframe's time and hold determine it.
     """
-    keyframes, duration = given.keyframes, given.lasts
+    keyframes, duration = given.keyframes, given.duration
     last = keyframes[-1]
     if duration is None and last.time is not None:
         duration = last.time + last.hold

@@ -43,7 +43,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
         if aim is not None:
             subject = subject._replace(composition=WATCH)
         ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True, aim=aim)
-        return timed(shot, scene, ideal, (subject,), lasts=STILL_S)
+        return timed(shot, scene, ideal, (subject,), duration=STILL_S)
     aimed = scene.aim(shot, shot)
     if isinstance(aimed, Diagnostic | Deferred):
         return Expansion.of([aimed])

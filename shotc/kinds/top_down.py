@@ -53,7 +53,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     if target.track is not None:
         places = [Beside(shot.target, p, above=above or "target") for p in ((0.0, 0.0, high), end)]
         beside = (scene.keyframe(b.offset, shot.target, beside=b, **fixed) for b in places)
-        return Expansion.of(beside)._replace(lasts=seconds)
+        return Expansion.of(beside)._replace(duration=seconds)
     first = scene.raised((x, y, high), target, above)
     if not drifts:
         return Expansion.of([scene.keyframe(first, shot.target, hold=seconds, **fixed)])

@@ -56,7 +56,7 @@ class FleetChange:
 
     fleet: str
     drones: tuple[int | None, int | None]
-    lasts: tuple[float | None, float | None]
+    duration: tuple[float | None, float | None]
 
 
 @dataclass(frozen=True, slots=True)

@@ -65,7 +65,8 @@ from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.turns import steady
 from shotc.planning.path.with_camera import NoTransit, with_camera
 from shotc.planning.timing.deadlines import flying_times
-from shotc.planning.timing.estimate import lateness, leg_time, rough_times
+from shotc.planning.timing.rough_times import rough_times
+from shotc.planning.timing.timed_leg import lateness, leg_time
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 

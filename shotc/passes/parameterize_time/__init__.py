@@ -29,11 +29,11 @@ from shotc.passes.parameterize_time.explain.times import (
     too_fast,
     without_length,
 )
-from shotc.planning.timing.estimate import LegTiming, can_be_timed, time_leg
 from shotc.planning.timing.flight import TrajectoryBuilder
 from shotc.planning.timing.leg import SHORTEST_HOLD_S
 from shotc.planning.timing.limits import ceiling_of
 from shotc.planning.timing.move import TimedMove
+from shotc.planning.timing.timed_leg import LegTiming, can_be_timed, time_leg
 
 Stats = list[tuple[str, float | str]]
 

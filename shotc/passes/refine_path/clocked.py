@@ -16,7 +16,7 @@ from shotc.ir.phases import UPRIGHT, Reference
 from shotc.ir.tolerances import AT_REST
 from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.refine_path.form import SAME_PLACE_TOLERANCE, broken, changed_shot, jumps
-from shotc.planning.timing.estimate import leg_time
+from shotc.planning.timing.timed_leg import leg_time
 
 JOINT_TOLERANCE = 1e-9
 """Tolerance in seconds, metres, radians and their rates: a shot joins the legs around it exactly."""

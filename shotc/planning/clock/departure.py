@@ -33,7 +33,7 @@ from shotc.ir.preference import LONGEST_WAIT_S
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.visibility import seen_on
-from shotc.planning.timing.estimate import leg_motion
+from shotc.planning.timing.timed_leg import leg_motion
 
 STEP_S = 0.05  # seconds between samples
 COMFORT_M = 0.5  # metres beyond a clearance: twice the approach of two drones in a step

@@ -12,9 +12,9 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import ClockLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.timing.estimate import leg_motion
 from shotc.planning.timing.flight import TrajectoryBuilder
 from shotc.planning.timing.profile import Profile
+from shotc.planning.timing.timed_leg import leg_motion
 
 LATE_S = 1e-6  # seconds
 

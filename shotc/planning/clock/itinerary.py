@@ -51,7 +51,7 @@ from shotc.planning.path.legs import (
     way_to,
 )
 from shotc.planning.path.shots import Failure, PlannedShot
-from shotc.planning.timing.estimate import leg_time
+from shotc.planning.timing.timed_leg import leg_time
 from shotc.rounding import up
 
 LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)

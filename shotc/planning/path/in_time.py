@@ -21,7 +21,7 @@ from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.legs import end_of, turned_way
 from shotc.planning.path.shots import AngleFailure
 from shotc.planning.path.with_camera import SAME_END, NoTransit, with_camera
-from shotc.planning.timing.estimate import lateness, leg_time
+from shotc.planning.timing.timed_leg import lateness, leg_time
 
 
 def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewise]) -> TimedPath:

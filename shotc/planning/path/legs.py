@@ -37,7 +37,7 @@ from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, TURN_LENGTH_M_RAD
 from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
 from shotc.planning.path.transit import transit_curve
-from shotc.planning.timing.estimate import leg_time
+from shotc.planning.timing.timed_leg import leg_time
 from shotc.solvers.conic import Status
 
 SAME_ANGLE_RAD = 1e-6

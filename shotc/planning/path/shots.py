@@ -25,7 +25,7 @@ from shotc.planning.path.seeing import CURVE_ROUNDS, FilmedCurve, is_led, watche
 from shotc.planning.path.swings import Swing, worst_swing
 from shotc.planning.path.unwrapping import turns_of
 from shotc.planning.timing.deadlines import has_times
-from shotc.planning.timing.estimate import lateness
+from shotc.planning.timing.timed_leg import lateness
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 

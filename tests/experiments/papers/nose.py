@@ -27,7 +27,7 @@ from shotc.ir.path import BODY_YAW, Pose
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path.legs import LegContext, way_to
-from shotc.planning.timing.estimate import leg_motion
+from shotc.planning.timing.timed_leg import leg_motion
 from tests.experiments.papers.report import Table
 from tests.support.front_passes import resolved
 

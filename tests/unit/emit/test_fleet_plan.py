@@ -208,7 +208,7 @@ def test_two_shows_compared() -> None:
     found = compare(PLAN, VerifiedIR(moved, PLAN.certificate))
     assert found.shots[0].distance == pytest.approx(1.5)
     (change,) = found.fleets
-    assert (change.fleet, change.drones, change.lasts) == ("swarm", (4, 4), (46.0, 46.0))
+    assert (change.fleet, change.drones, change.duration) == ("swarm", (4, 4), (46.0, 46.0))
     fewer = plan(mission(fleets=(fleet(PADS[:3]),)))
     found = compare(PLAN, fewer)
     assert found.shots[0].distance is None

@@ -9,8 +9,8 @@ import pytest
 
 from shotc.comparison import Options, compare_source
 from shotc.ir.path import ClockLeg, MovingLeg, filmed
-from shotc.planning.timing.estimate import time_leg
 from shotc.planning.timing.limits import ceiling_of
+from shotc.planning.timing.timed_leg import time_leg
 from shotc.plugin_api.replanner import USUAL_FRAMING
 from shotc.simulation.film import film_of
 from shotc.simulation.situations import replanned

@@ -37,7 +37,7 @@ def _wrong(result: Any) -> str:
     ideal: Any = result.ideal
     if not isinstance(ideal, Ideal | None):
         return f"returned a {type(ideal).__name__} as its ideal"
-    if not all(isfinite(number) for number in _numbers((result.keyframes, result.ideal, result.lasts))):
+    if not all(isfinite(number) for number in _numbers((result.keyframes, result.ideal, result.duration))):
         return "returned a number that is not finite"
     if not (result.keyframes or result.ideal or result.display or result.diagnostics or result.deferred):
         return "returned no keyframe, and does not say why"

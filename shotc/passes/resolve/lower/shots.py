@@ -147,7 +147,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         drone=shot.drone,
         subject=shot.target,
         keyframes=expansion.keyframes,
-        timing=Timing(timing.start, timing.after, timing.duration or expansion.lasts),
+        timing=Timing(timing.start, timing.after, timing.duration or expansion.duration),
         pace=shot.pace or spec.rules.pace,
         promise=_promise(shot.require),
         refine_optional=shot.refine is not None and shot.refine.optional,

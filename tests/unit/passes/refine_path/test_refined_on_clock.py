@@ -16,7 +16,7 @@ from shotc.passes.refine_path.settle import same
 from shotc.planning.clock.flights import flown_shot
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit
-from shotc.planning.timing.estimate import leg_time
+from shotc.planning.timing.timed_leg import leg_time
 from tests.support.bad_refiners import Odd, accepting, convex_path
 
 MISSION = """\

@@ -34,8 +34,8 @@ from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import FreeSpaces, free_spaces_of
 from shotc.planning.path.legs import LegContext, Pose, way_to
-from shotc.planning.timing.estimate import leg_time
 from shotc.planning.timing.straight import LineLimits
+from shotc.planning.timing.timed_leg import leg_time
 from tests.support.few import few
 from tests.support.front_passes import placed
 from tests.support.owners import owner
