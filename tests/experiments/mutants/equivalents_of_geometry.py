@@ -318,4 +318,17 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         "of three breaks the first two are read",
         3,
     ),
+    Equivalent(
+        "shotc/geom/terrain/systems.py",
+        "(13 / 48, -3 / 5, 557 / 1440),",
+        "1440  ->  1441",
+        "n^4 / 3700 of the earth's radius is 14 nanometres",
+    ),
+    Equivalent(
+        "shotc/geom/ways_apart.py",
+        "break",
+        "break  ->  continue",
+        "the same pairs are looked at again, with the same bounds",
+        1,
+    ),
 )

@@ -34,7 +34,7 @@ def test_two_of_one_colour_are_apart(points: list[tuple[float, float]], least: f
 @pytest.mark.parametrize("turn", [0.0, 0.3])
 def test_square_grids_take_the_best_sublattice(spacing: float, count: int, turn: float) -> None:
     square = [(spacing * (i % 12), spacing * (i // 12)) for i in range(144)]
-    points = [(5 + x * cos(turn) - y * sin(turn), x * sin(turn) + y * cos(turn)) for x, y in square]
+    points = [(5 + x * cos(turn) - y * sin(turn), 7 + x * sin(turn) + y * cos(turn)) for x, y in square]
     assert max(coloured(points, 1.5)) + 1 == count
 
 

@@ -82,3 +82,13 @@ def test_a_gap_beside_a_cylinder_counts_from_its_side_or_its_top(scale, aside, h
 def test_a_gap_beside_a_zone_of_any_height_counts_from_its_sides() -> None:
     tall = Cylinder((0.0, 0.0), 2.0, 0.0, float("inf"))
     assert gap_beside(tall, (-9.0, 3.0, 500.0), (9.0, 3.0, 0.0), 100.0) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_only_the_segment_counts_for_how_far_it_passes_and_not_the_line_beyond_its_ends(
+    turned: bool,
+) -> None:
+    # West of the walls x = 10 to 20 by 8 - 5 s, south of y = 0 to 10 by 10 - 6.5 s: equal at s = 4 / 3.
+    ends = (2.0, -10.0, 5.0), (7.0, -3.5, 5.0)
+    a, b = ends[::-1] if turned else ends
+    assert gap_beside(box((15.0, 5.0, 5.0), (10.0, 10.0, 10.0), 0.0), a, b, 9.0) == pytest.approx(3.5)

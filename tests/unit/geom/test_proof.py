@@ -356,3 +356,9 @@ def test_boxes_overlap_if_they_do_along_every_axis(axis: int, off: float, met: b
     ctrl[:, :, axis] += off
     assert proof._box_overlap(ctrl, solid).tolist() == [met]
     assert proof.box_gap(ctrl, solid) == pytest.approx([max(0.0, abs(off) - 2.0)])
+
+
+def test_a_curve_without_pieces_is_near_nothing() -> None:
+    nothing = Pieces(np.zeros(0), np.zeros(0), np.zeros((0, 4, 3)))
+    found = inf_distance(nothing, Cylinder((0.0, 0.0), 1.0, 0.0, 1.0), lambda _: 1e-6)
+    assert (found.proven, found.attained, found.at) == (inf, inf, 0.0)

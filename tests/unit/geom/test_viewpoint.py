@@ -265,3 +265,18 @@ def test_off_a_preferred_pose_shares_of_the_distance_and_angles_count() -> None:
         kept = [a for a, asked in zip(angles, (yaw, pitch), strict=True) if asked is not None]
         assert free == pytest.approx([module.NEAR_WEIGHT * each for each in (*place, *kept)])
     assert module._off_pose(pose, None, (MAN,)) == []
+
+
+@pytest.mark.parametrize(("radius", "height"), [(2.0, 1.0), (0.5, 6.0)])
+def test_the_first_pose_stands_back_by_the_spread_of_the_subjects_over_half_the_smaller_field(
+    radius: float, height: float
+) -> None:
+    both = [
+        RequiredView((x, 0.0, 20.0), CylinderShape(r, h))
+        for x, r, h in ((-3.0, radius, height), (3.0, 0.1, 0.1))
+    ]
+    x, y, z, yaw, pitch = first_pose(both, LENS, ROOM, radians(30))
+    back = (3.0 + radius + height / 2) * (1.0 + 1.0 / (tan(radians(35)) * 9 / 16)) + ROOM.near
+    toward = direction(radians(30), 0.0)
+    assert (x, y, z) == pytest.approx((back * toward[0], back * toward[1], 20.0))
+    assert (yaw, pitch) == pytest.approx((radians(-120), 0.0))

@@ -63,3 +63,8 @@ def test_no_sample_is_nearer_than_what_is_proved(seed: int) -> None:
     sampled = float(cKDTree(other).query(one)[0].min())
     assert found.proven <= sampled + 1e-9
     assert sampled - 0.1 <= found.attained <= found.proven + 2 * GAP + 1e-9
+
+
+def test_ways_that_cross_have_no_distance() -> None:
+    found = nearest(way([(-4, 0, 1), (4, 0, 1)]), way([(0, -9, 1), (0, 9, 1)]), lambda _: GAP)
+    assert (found.proven, found.attained) == pytest.approx((0.0, 0.0), abs=1e-9)

@@ -212,3 +212,16 @@ def test_a_flight_over_real_mountains_is_proved_to_a_millimetre():
         x, y, z = curve(found.at)
         assert z - land.height_at(x, y) == pytest.approx(found.attained, abs=1e-6)
     assert max(low.attained - low.proven, high.proven - high.attained) <= GAP
+
+
+@pytest.mark.parametrize("level", [0.0, -100.0, 100.0])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_one_cell_of_other_height_is_found_whatever_the_level_of_the_ground(
+    level: float, sign: float
+) -> None:
+    # It is not under the middle of the curve, which is looked at first.
+    heights = np.full((41, 41), level)
+    heights[31, 20] += 5.0 * sign
+    low, high = bounds(line((2.0, 20.0, level + 10.0), (38.0, 20.0, level + 10.0)), ground(grid(heights)))
+    assert low.proven == pytest.approx(5.0 if sign > 0.0 else 10.0, abs=1e-4)
+    assert high.proven == pytest.approx(10.0 if sign > 0.0 else 15.0, abs=1e-4)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from shotc.geom.surface import occlusion
 from shotc.geom.surface.boards import Billboards, billboards, cells_of, upright
-from shotc.geom.surface.occlusion import hidden
+from shotc.geom.surface.occlusion import candidates, hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
 
@@ -199,3 +199,43 @@ def test_a_pyramid_goes_through_the_outermost_middles_of_cells(n: int):
         assert found.ends[frame][key[1]] == pytest.approx(corners[key[0]])
     inside = np.einsum("fsd,fkd->fsk", found.sides, middles)
     assert inside.min() >= -1e-9
+
+
+def speck(place: tuple[float, float, float]) -> np.ndarray:
+    return np.array(place) + 1e-6 * np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 1]])
+
+
+@pytest.mark.parametrize("inside", [True, False])
+@pytest.mark.parametrize(
+    ("place", "outwards", "far", "about"),
+    [
+        ((1.0, 10.0, 0.0), (1, 0, 0), 1.0, 0.0),  # half-way the box is half as wide and as high
+        ((-1.0, 10.0, 0.0), (-1, 0, 0), 1.0, 0.0),
+        ((0.0, 10.0, 0.5), (0, 0, 1), 1.0, 0.0),
+        ((0.0, 10.0, -0.5), (0, 0, -1), 1.0, 0.0),
+        ((0.0, 20.0, 0.0), (0, 1, 0), 1.0, 0.0),  # it ends at the board
+        ((0.0, 0.0, 0.0), (0, -1, 0), 1.0, 0.0),  # it begins at the eye
+        ((0.0, 10.0, 0.0), (0, 1, 0), 0.5, 0.0),
+        ((1.33, 10.0, 0.0), (1, 0, 0), 1.0, 0.3),  # at share 10.3 / 20 it is 1.03 wide, and 0.3 are added
+        ((0.0, -0.3, 0.0), (0, -1, 0), 1.0, 0.3),
+    ],
+)
+def test_triangles_count_in_the_box_that_grows_from_the_eye_to_the_board(
+    place: tuple[float, float, float], outwards: tuple[int, int, int], far: float, about: float, inside: bool
+) -> None:
+    board = billboards(np.zeros((1, 3)), np.array([[0.0, 20.0, 0.0]]), 4.0, 2.0)
+    at = np.array(place) + (-0.01 if inside else 0.01) * np.array(outwards)
+    found = candidates(surface_of(speck(tuple(at))[None]), board, far, about)
+    assert len(found) == int(inside)
+
+
+def test_frames_in_groups_have_the_candidates_that_each_has_alone() -> None:
+    random = np.random.default_rng(5)
+    surface = surface_of(some_triangles(random, 200))
+    count = 3 * occlusion.GROUPED_FRAMES + 5
+    eyes = np.array([-20.0, 0.0, 0.0]) + 0.05 * np.arange(count)[:, None] * np.array([0.0, 1.0, 0.5])
+    boards = billboards(eyes, np.broadcast_to([20.0, 1.0, 0.0], (count, 3)), 3.0, 2.0)
+    found = candidates(surface, boards)
+    alone = [candidates(surface, boards.pick(slice(k, k + 1))).triangle for k in range(count)]
+    assert any(len(one) for one in alone)
+    assert [set(found.triangle[found.item == k]) for k in range(count)] == [set(one) for one in alone]

@@ -52,11 +52,12 @@ def test_utm_is_that_of_pyproj(code: int):
     pyproj = pytest.importorskip("pyproj")
     north, zone = code < 32700, code % 100
     random = np.random.default_rng(code)
-    lat = random.uniform(0, 80, 200) * (1 if north else -1)
-    lon = 6 * zone - 183 + random.uniform(-3, 3, 200)
+    lat = random.uniform(0, 84, 400) * (1 if north else -1)
+    lon = 6 * zone - 183 + random.uniform(-4, 4, 400)
     expected = pyproj.Transformer.from_crs(4326, code, always_xy=True).transform(lon, lat)
     found = known(code).of_degrees(lat, lon)
-    assert np.abs(np.array(found) - np.array(expected)).max() < 1e-5
+    # The series end at the fourth power of the third flattening: 0.2 um up to 4 degrees beside the meridian.
+    assert np.abs(np.array(found) - np.array(expected)).max() < 3e-7
     assert np.abs(np.array(known(code).to_degrees(*expected)) - np.array([lat, lon])).max() < 1e-9
 
 

@@ -267,3 +267,16 @@ def test_a_target_that_darts_in_and_out_within_a_piece_is_in_its_box() -> None:
     of = flown()
     apart = module._boxes_apart(of.flown.between([(6.0, 22.0)]), bird)
     assert apart == pytest.approx([6.5, 2.5, 0.0])  # its box begins 1.5 m to the West of the third drone
+
+
+@pytest.mark.parametrize("spare", [NEAR_M, -NEAR_M])
+def test_over_flat_ground_the_highest_drone_keeps_the_greatest_height_and_the_lowest_the_clearance(
+    spare: float,
+) -> None:
+    rules = mission().rules._replace(max_height=11.0 + spare, ground_clearance=8.0 - RADIUS_M - spare)
+    # A control point that is alone on its side of 10 m moves a spline by two thirds of its own way.
+    found = claims({(1, FAR): (0.0, 0.0, 1.5), (2, FAR): (0.0, 0.0, -3.0)}, rules=rules)
+    high, low = found["height above ground"], found["ground clearance"]
+    assert (high.worst, high.drones, high.holds) == (pytest.approx(11.0, abs=1e-5), ("swarm-2",), spare > 0)
+    assert (low.worst, low.drones) == (pytest.approx(8.0 - RADIUS_M, abs=1e-5), ("swarm-3",))
+    assert low.holds == (spare > 0)

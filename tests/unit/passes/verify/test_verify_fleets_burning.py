@@ -253,3 +253,9 @@ def test_a_product_burns_from_its_ignition_on_drones_of_its_own_fleet(
 ) -> None:
     asked = burning(5.0)
     assert pyro.burning_at(asked, of, time) is burns
+
+
+def test_a_place_is_above_terrain_in_it_or_beyond_it() -> None:
+    module = import_module("shotc.passes.verify.fleets.burning")
+    places = np.array([[4.0, 20.0, 31.0], [4.0, 20.0, 18.0], [1e6, 20.0, 31.0]])
+    assert module._from_terrain(terrain(plateau(20.0)), places).tolist() == [11.0, -2.0, -np.inf]

@@ -2,6 +2,8 @@
 
 import re
 from math import ceil, pi, radians
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -13,9 +15,10 @@ from shotc.ir.mission import Zone
 from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
 from shotc.ir.promise import Promise
-from shotc.ir.trajectory import TrajectoryIR
+from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import Verify
 from shotc.passes.verify.claims import JudgedFlight
+from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.reference import held
 from shotc.passes.verify.visible import longest
 from tests.support.records import replace
@@ -311,3 +314,13 @@ def test_a_target_counts_from_its_first_keyframe_to_its_last_with_their_holds() 
     flight = JudgedFlight(MISSION, MISSION.drones[0], track)
     found = held(flight, replace(placed, keyframes=tuple(keyframes)), phase, "tower", times)
     assert found.tolist() == [False, False, True, True, True, True, False, False]
+
+
+def test_what_hides_most_of_a_target_is_named_first() -> None:
+    zones = [
+        Zone(name, "out", box((x, 0.0, 10), (1, wide, 20), 0), ("world", "zones", name))
+        for name, x, wide in (("narrow", 32.0, 2.0), ("wide", 30.0, 4.0))
+    ]
+    ir = with_mission(zones=(*MISSION.zones, *zones))
+    told = hidden_by(ir, cast("Claim", SimpleNamespace(subject="cam1", shot="half")), "tower")
+    assert [text.split(" ")[1] for text in told] == ["`wide`", "`narrow`"]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from math import asin, atan2, pi, radians, sqrt
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.passes.verify import sight
 from shotc.passes.verify.sight import CameraAndBody, infimum
 from tests.support.sight_plans import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
 
@@ -190,3 +193,21 @@ def test_who_flies_close_and_fast_about_the_camera_is_still_proved() -> None:
         value = 8 * np.sin(1.0 - radians(30)) - R if half_angle is None else 1.0 - asin(R / 8)
         assert found.method == "bounded"
         assert found.worst == pytest.approx(value, rel=0.02)
+
+
+@pytest.mark.parametrize("whose", ["film", "other"])
+@pytest.mark.parametrize("channel", range(7))
+def test_each_acceleration_is_in_the_bound_that_it_belongs_to(whose: str, channel: int) -> None:
+    t, push = np.array([0.0, 2.0]), np.zeros(7)
+    push[channel] = 3.0
+    moves = quintic_hermite(t, 0.5 * t[:, None] ** 2 * push, t[:, None] * push, np.ones((2, 1)) * push)
+    stands = moves.__class__(t, np.zeros_like(moves.ctrl))
+    curves = {"film": stands, "other": stands, whose: moves}
+    pair = SimpleNamespace(**{name: SimpleNamespace(curve=curve) for name, curve in curves.items()})
+    found = sight._fastest(cast("CameraAndBody", pair), 0.0, 2.0)
+    kind = {0: "speed", 1: "speed", 2: "speed", CAM_YAW: "turn", CAM_PITCH: "turn", HFOV: "zoom"}.get(channel)
+    counts = kind if whose == "film" or kind == "speed" else None
+    bounds = {"speed": found.speed, "turn": found.turn, "zoom": found.zoom}
+    assert bounds == {
+        name: pytest.approx(3.0 if name == counts else 0.0, rel=0.06, abs=2e-3) for name in bounds
+    }

@@ -15,7 +15,7 @@ from shotc.geom.apart import ROUNDING_RATIO, spacing
 from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
-from shotc.show.geom.fit import _on_face, _round_box, most_drones
+from shotc.show.geom.fit import ROGERS_SHARE, _on_face, _round_box, most_drones
 from shotc.show.geom.shape import NARROW_SHARE, balls, bounds, depth_in, highest, lowest
 from shotc.show.goals.body import upright_axes
 
@@ -246,3 +246,20 @@ def test_balls_of_a_model_stand_over_each_other_as_high_as_it_is() -> None:
     shape = balls(model)
     assert {ball.centre[:2] for ball in shape} == {(3.0, 4.0)}
     assert (lowest(shape), highest(shape)) == (17.0, 23.0)
+
+
+@pytest.mark.parametrize("upright", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("source", "volume"),
+    [
+        (Sphere(CENTRE, 3000.0), 4.0 / 3.0 * pi * 3000.0**3),
+        (Box(CENTRE, (2000.0, 3000.0, 4000.0), 0.0), 2000.0 * 3000.0 * 4000.0),
+        (Torus(CENTRE, 9000.0, 3000.0, 0.0, 0.0), 2.0 * pi**2 * 9000.0 * 3000.0**2),
+    ],
+)
+def test_a_huge_solid_holds_as_many_as_cells_of_their_least_volume_fill_it(
+    source: Source, volume: float, upright: float
+) -> None:
+    apart = Apart("ellipsoid", 1.0, upright, 0.0)
+    cell = pi / 6.0 * spacing(apart) ** 3 / ROGERS_SHARE / (apart.across / apart.upright)
+    assert most_drones(picture(source), apart) * cell == pytest.approx(volume, rel=0.006)

@@ -88,3 +88,14 @@ def test_where_the_goals_are_as_a_whole_changes_nothing() -> None:
     order = matched(starts, goals)
     assert (matched(starts, goals + np.array([300.0, -400.0, 100.0])) == order).all()
     assert (matched(starts - np.array([0.0, 500.0, 0.0]), goals) == order).all()
+
+
+@pytest.mark.parametrize(("gain", "swapped"), [(0.99, False), (1.01, True)])
+def test_two_drones_swap_goals_if_that_gains_more_than_rounding_of_the_largest_products(
+    gain: float, swapped: bool
+) -> None:
+    least = fleet_match.TOLERANCE_SHARE * 100.0 * 50.0
+    starts = np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [100.0, 100.0, 100.0]])
+    goals = np.array([[gain * least / 0.01, 0.0, 0.0], [0.0, 0.0, 0.0], [50.0, 50.0, 50.0]])
+    order = fleet_match._untangled(starts, goals, np.arange(3))
+    assert order.tolist() == ([1, 0, 2] if swapped else [0, 1, 2])
