@@ -71,13 +71,13 @@ def compare(
 
     All refiners start from the same convex path, keep the same limits and are measured alike: the distance of
     the target from its wanted place on screen, the share of frames that show it whole, the smoothness of the
-    flight. A broken promise (`require`) is reported and refuses no plan here. A refiner that fails has a row
-    that says so. For every refiner and shot the output gives the frame that differs most from the last
-    refiner, by metres between the cameras plus degrees between their directions.
+    flight. A broken promise (`require`) is reported, but it does not refuse the plan here. A refiner that
+    fails has a row that says so. For every refiner and shot the output gives the frame that differs most from
+    the last refiner, by metres between the cameras plus degrees between their directions.
 
     The files are compare.json and compare.md (the table), compare.png (the worst frame of each),
     differences.png (the frames that differ most), and compare.rrd (the camera views, for the rerun viewer).
-    None of them is flown; `shotc plan --refiner NAME` plans with one refiner. Examples:
+    These files are not flown; `shotc plan --refiner NAME` plans with one refiner. Examples:
 
         shotc compare tower.yaml --refiners none,ours
         shotc compare runner.yaml --refiners ours --smoothing low,normal,high

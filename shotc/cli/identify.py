@@ -48,15 +48,15 @@ def identify(
 ) -> None:
     """Find the targets that keyframes mean in the mission's scene.
 
-    Draw `box: [u0, v0, u1, v1]` round your subject in a keyframe of a `keyframes` shot: the lower left and
+    Draw `box: [u0, v0, u1, v1]` around your subject in a keyframe of a `keyframes` shot: the lower left and
     the upper right corner on the screen, u to the right and v up, from -1 to 1. Rays through the box find
     the parts of `world.scene` and `world.buildings` in it. Parts that belong together become one target, a
     cylinder. If several keyframes show the same thing, it is one target.
 
     The command writes the mission with the targets; comments and layout stay. Beside it, it writes a sheet of
-    pictures (PNG) with boxes and cylinders: look at it. Both give the confidence of each target; less than
-    60 % is a warning with the runner-up. `--guess` draws a box round what is unlike the rest of the picture,
-    which is seldom right; the guessed box is written, too, so that you can correct it.
+    pictures (PNG) with boxes and cylinders: look at it. Both give the confidence of each target; less than 60
+    % is a warning with the runner-up. `--guess` draws a box around what is unlike the rest of the picture.
+    The guess is seldom right. The guessed box is written, too, so that you can correct it.
 
     Example: `shotc identify church.yaml -o church-identified.yaml`
     """

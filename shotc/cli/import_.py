@@ -37,9 +37,7 @@ OutputFile = Annotated[
     ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Refuse what would have to be assumed.")]
-Every = Annotated[
-    bool, typer.Option("--every", help="Keep all cameras, those that the others imply as well.")
-]
+Every = Annotated[bool, typer.Option("--every", help="Keep all cameras, also those that the others imply.")]
 Times = Annotated[
     bool, typer.Option("--times", help="Keep when each camera is reached, not only how long a take lasts.")
 ]
@@ -69,19 +67,22 @@ def import_(
     their distances and times, sequences become drones, trajectories become the tracks of targets, and
     `RULE_OF_THIRDS` becomes a third with room on the side to which the target moves.
 
-    `kml` reads tours of Google Earth (`gx:Tour`, KML or KMZ), or the cameras of placemarks in their order;
-    `blender-camera` a table `frame,x,y,z,rx,ry,rz,lens`, or with `qw,qx,qy,qz` and `hfov`, metres with Z up;
-    `qgc` waypoints, headings and gimbal commands of a QGroundControl plan; `litchi` the table of its Hub.
-    Each tour, animation or recording becomes a shot of `keyframes`. Tours and animations keep their length if
-    the drone is fast enough. Cameras that the others imply are left out: a thing that is as far away as the
-    camera is high stays within 0.01 half frames of its place in the file.
+    `kml` reads tours of Google Earth (`gx:Tour`, KML or KMZ), or the cameras of placemarks in their order.
+    `blender-camera` reads a table with the columns `frame,x,y,z,rx,ry,rz,lens`, in metres with Z up;
+    `qw,qx,qy,qz` and `hfov` are possible, too. `qgc` reads waypoints, headings and gimbal commands of a
+    QGroundControl plan. `litchi` reads the table of its Hub. Each tour, animation or recording becomes a shot
+    of `keyframes`. Tours and animations keep their length if the drone is fast enough. The importer leaves
+    out cameras that the others imply: a thing that is as far away as the camera is high moves on screen by at
+    most 0.01 half frames.
 
     `show` reads a drone show from elsewhere: zipped CSV (.zip) or a `.skyc`. The mission flies the show as it
-    is recorded. `-o` names the mission; its pads, and the file unless it is there, are put beside it.
+    is recorded. `-o` names the mission. Its pads are written beside it, and so is the show, unless it is
+    there already.
 
-    If the file leaves something open, has an error or contradicts itself, the importer makes an assumption:
-    each is a warning with its line and column, and a comment in the mission, where you can change it.
-    `--strict` refuses instead. The command writes a mission that `shotc check` accepts, or nothing.
+    If the file leaves something open, has an error or contradicts itself, the importer makes an assumption.
+    Each assumption is a warning with its line and column, and a comment in the mission, where you can change
+    it. With `--strict` the importer refuses such a file. The command writes a mission that `shotc check`
+    accepts, or nothing.
 
     Example: `shotc import kml tour.kml --ground 408 -o tour.yaml`
     """

@@ -64,7 +64,12 @@ WindSpeed = Annotated[
 ]
 WindFrom = Annotated[
     float | None,
-    typer.Option("--from", min=-360.0, max=360.0, help="Compass bearing it comes from, deg [any: drawn]."),
+    typer.Option(
+        "--from",
+        min=-360.0,
+        max=360.0,
+        help="Bearing from which the wind comes, deg [the world's; drawn if it has none].",
+    ),
 ]
 Gusty = Annotated[
     float | None,

@@ -36,7 +36,7 @@ To = Annotated[
         "--to",
         metavar="[DRONE=]ADDRESS",
         help="Where a vehicle is: `udp:PORT` or `udp:HOST:PORT` waits for it there, `udpout:HOST:PORT` calls "
-        "it. Once for every drone; the name may be left out where the plan has one.",
+        "it. Once for every drone; the name may be left out if the plan has one drone.",
     ),
 ]
 TargetOption = Annotated[
@@ -71,14 +71,14 @@ def stream(
     parameters by which it holds, returns or lands when the link is lost. Every fault is reported with a
     remedy.
 
-    With --arm each drone gets ready a few seconds before its lift-off, follows the plan in OFFBOARD (PX4) or
+    With --arm, each drone gets ready a few seconds before its lift-off, follows the plan in OFFBOARD (PX4) or
     GUIDED (ArduPilot), records its shots, and lands on its pad. If anything goes wrong, or at Ctrl-C, every
     drone in the air is told to hold (PX4: HOLD, ArduPilot: BRAKE): be ready to take over.
 
-    With --at mission time 0 is at that time of day, so that several machines and a show begin together. Set
+    With --at, mission time 0 is at that time of day. Several machines and a show then begin together. Set
     their clocks by a time server or by satellites. Drones get ready up to 15 s before it.
 
-    With --target cameras follow the real place of a target, and keep it at its planned place on screen;
+    With --target, cameras follow the real place of a target, and keep it at its planned place on screen;
     drones keep to the plan. A datagram is `{"x": 3.1, "y": -2, "z": 0.9}` in the mission's frame,
     `{"lat": .., "lon": .., "alt": ..}`, or the GLOBAL_POSITION_INT of another vehicle.
 

@@ -72,8 +72,8 @@ def verify(
     claim is broken, if the plan differs from its mission or its proof, or, with --against, if it is not the
     plan of that mission file.
 
-    A flight of another tool: verify proves it against a mission (--against), that is its ground, zones,
-    buildings, limits, drones and promises. It reads .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz
+    A flight of another tool: verify proves it against a mission (--against): its ground, zones, buildings,
+    limits, drones and promises. It reads .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz
     (DJI WPML), .csv (Litchi, or trajectories in the columns of trajectory.csv), .skyc and zipped CSV
     (Skybrush). Each flight is rebuilt as its machine flies it, on every curve that the machine may take, and
     proved between its points. What a file does not contain is named and not judged; for example, waypoints
@@ -83,13 +83,13 @@ def verify(
     `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or to the one of --drone.
 
     --abort-every 1s proves that a show can be aborted at every second: all drones of a fleet brake along
-    their common way, fly over their pads, any of them, and land. Each return is proved as the plan is:
-    separation, limits, zones, ground and endurance. Cameras that film the show fly on as planned, and each
-    return keeps clear of them. A product that burns by then burns on, at its clearances. The exit status
-    is 1 if some second has no return.
+    their common way, fly to the pads, where any drone may take any pad, and land. Each return is proved as
+    the plan is: separation, limits, zones, ground and endurance. Cameras that film the show fly on as
+    planned, and each return keeps clear of them. Pyro that burns at that second burns on, and its clearances
+    are kept. The exit status is 1 if some second has no return.
 
-    The certificate that is printed has for every claim the limit, the worst value, its time, and how it is
-    known. A claim is ok, BROKEN (an error), or missed: a preference that is not reached, which is a warning.
+    For every claim, the printed certificate gives the limit, the worst value, its time, and how it is known.
+    A claim is ok, BROKEN (an error), or missed: a preference that is not reached, which is a warning.
 
     For example:
 
