@@ -158,7 +158,9 @@ def _accepted(result: Imported, file: str, files: KeptFiles | None) -> str:
     if has_errors(checked.diagnostics):
         console.report(checked.diagnostics, checked.sources)
         failed = Diagnostic(
-            "I006", f"what `{file}` asks for is no mission that can be flown; nothing is written"
+            "I006",
+            f"what `{file}` asks for is no mission that can be flown; nothing is written",
+            help=f"correct in `{file}` what the errors above name, and import it again",
         )
         console.report([failed], {})
         raise typer.Exit(console.EXIT_REJECTED)
@@ -175,7 +177,9 @@ def _read(file: str, most: int) -> bytes:
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or fault
         message = f"`{file}` cannot be read: {reason}"
-        console.report([Diagnostic("I001", message, (Label(file, WHOLE_FILE),))], {})
+        console.report(
+            [Diagnostic("I001", message, (Label(file, WHOLE_FILE),), help="check the name of the file")], {}
+        )
         raise typer.Exit(console.EXIT_REJECTED) from None
 
 

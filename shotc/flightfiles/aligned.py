@@ -112,7 +112,9 @@ def lens_of(rows: DroneRows) -> Array | None:
     wrong = np.flatnonzero((columns[:, 0] < low) | (columns[:, 0] > high))
     if len(wrong):
         angle = float(np.degrees(columns[wrong[0], 0]))
-        refuse(BROKEN, f"a field of view of {angle:.4g} deg is none of a lens", rows.node(int(wrong[0])))
+        message = f"a field of view of {angle:.4g} deg is none of a lens"
+        help_ = f"write `{CAMERA[2]}` in rad, from {low:.4g} to {high:.4g}"
+        refuse(BROKEN, message, rows.node(int(wrong[0])), help_)
     return np.asarray(columns[:, 0])
 
 

@@ -25,15 +25,15 @@ from shotc.rounding import at_least, plain, up
 SEEN = "V025"
 """Code of a drone in another one's picture."""
 HELPS = {
-    "V002": "change speed more gently there",
-    "V003": "change speed more gently there",
-    "V004": "turn slower there",
-    "V006": "turn the camera slower there",
+    "V002": "change speed more gently there, by {lack} at least",
+    "V003": "change speed more gently there, by {lack} at least",
+    "V004": "turn slower there, by {lack} at least",
+    "V006": "turn the camera slower there, by {lack} at least",
     SEEN: "film from elsewhere, or fly the other drone elsewhere then",
     "V035": "lead the way between shots {lack} farther away",
     "V055": "fly {lack} less",
     "V001": "fly slower there, by {lack} at least, or raise the limit",
-    "V005": "ask for an angle that the gimbal reaches",
+    "V005": "turn the camera back there, by {lack} at least",
     "V007": "keep {lack} farther away there",
     "V008": "keep {lack} farther inside there",
     "V009": "fly {lack} higher there",

@@ -7,37 +7,48 @@ import zlib
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from posixpath import normpath
+from typing import NamedTuple
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 from shotc.importers.notes import plain
+from shotc.importers.remedies import AGAIN, CUT
 
 MAGIC = b"PK"
 BROKEN = (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error)
 """Exceptions that `zipfile` raises for bytes that are not an archive."""
 OTHER_PACKING = "is packed in a way that these files are not"
+PACK = "pack it again with the method `deflate`, as most programs do"
 
 
-def member(data: bytes, matches: Callable[[str], bool], what: str, most: int) -> bytes | str:
+class ArchiveFault(NamedTuple):
+    """Why an archive has no such member, and what remedies that."""
+
+    message: str
+    help: str
+
+
+def member(data: bytes, matches: Callable[[str], bool], what: str, most: int) -> bytes | ArchiveFault:
     """Return the first member whose name is ``matches``, or a text that says why there is none.
 
     what : description of the member for that text
     most : largest size of the archive, and of the member, bytes
     """
     if len(data) > most:
-        return f"the file is larger than {most / 1e6:.0f} MB"
+        return ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
     try:
         with ZipFile(BytesIO(data)) as archive:
             entry = next((i for i in archive.infolist() if matches(i.filename)), None)
             if entry is None:
-                return f"it is an archive without {what}"
+                return ArchiveFault(f"it is an archive without {what}", f"put {what} into it")
             # Other methods may need any amount of memory. These unpack no more than is read.
             if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-                return f"its document {OTHER_PACKING}"
+                return ArchiveFault(f"its document {OTHER_PACKING}", PACK)
             with archive.open(entry) as stream:
                 inside = stream.read(most + 1)
     except BROKEN as fault:
-        return f"it is a broken archive: {fault}"
-    return f"its document is larger than {most / 1e6:.0f} MB" if len(inside) > most else inside
+        return ArchiveFault(f"it is a broken archive: {fault}", AGAIN)
+    large = ArchiveFault(f"its document is larger than {most / 1e6:.0f} MB", CUT)
+    return large if len(inside) > most else inside
 
 
 class Archive:
@@ -51,42 +62,46 @@ class Archive:
         self._most, self._left = most, all
         self._zip: ZipFile | None = None
         self._members: dict[str, ZipInfo] = {}
-        self.fault = f"the file is larger than {most / 1e6:.0f} MB" if len(data) > most else ""
-        if self.fault:
+        self.fault: ArchiveFault | None = None
+        if len(data) > most:
+            self.fault = ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
             return
         try:
             self._zip = ZipFile(BytesIO(data))
             self._members = {normpath(each.filename): each for each in reversed(self._zip.infolist())}
         except BROKEN as fault:
-            self.fault = f"it is a broken archive: {plain(str(fault), 80)}"
+            self.fault = _broken(fault)
 
-    def member(self, name: str) -> bytes | str:
+    def member(self, name: str) -> bytes | ArchiveFault:
         """Return the member with this name, or a text that says why there is none."""
-        if self.fault or self._zip is None:
-            return self.fault
+        if self.fault is not None or self._zip is None:
+            return self.fault or ArchiveFault("it is no archive", AGAIN)
         entry = self._members.get(normpath(name))
         if entry is None:
-            return f"it is an archive without `{plain(name, 60)}`"
+            what = f"`{plain(name, 60)}`"
+            return ArchiveFault(f"it is an archive without {what}", f"put {what} into it")
         if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-            return f"`{plain(name, 60)}` {OTHER_PACKING}"
+            return ArchiveFault(f"`{plain(name, 60)}` {OTHER_PACKING}", PACK)
         try:
             with self._zip.open(entry) as stream:
                 inside = stream.read(min(self._most, self._left) + 1)
         except BROKEN as fault:
-            return f"it is a broken archive: {plain(str(fault), 80)}"
+            return _broken(fault)
         self._left -= len(inside)
         if len(inside) > self._most or self._left < 0:
-            return f"its document is larger than {self._most / 1e6:.0f} MB"
+            return ArchiveFault(f"its document is larger than {self._most / 1e6:.0f} MB", CUT)
         return inside
 
 
-def members(data: bytes, matches: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:
+def members(
+    data: bytes, matches: Callable[[str], bool], most: int
+) -> Iterator[tuple[str, bytes] | ArchiveFault]:
     """Yield (name, bytes) of each member whose name is ``matches``; after a fault, a text as the last item.
 
     most : largest size of the archive, and of all members together, bytes
     """
     if len(data) > most:
-        yield f"the file is larger than {most / 1e6:.0f} MB"
+        yield ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
         return
     left = most
     try:
@@ -95,14 +110,18 @@ def members(data: bytes, matches: Callable[[str], bool], most: int) -> Iterator[
                 if not matches(entry.filename):
                     continue
                 if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-                    yield f"`{plain(entry.filename, 60)}` {OTHER_PACKING}"
+                    yield ArchiveFault(f"`{plain(entry.filename, 60)}` {OTHER_PACKING}", PACK)
                     return
                 with archive.open(entry) as stream:
                     inside = stream.read(left + 1)
                 left -= len(inside)
                 if left < 0:
-                    yield f"what is in it is larger than {most / 1e6:.0f} MB"
+                    yield ArchiveFault(f"what is in it is larger than {most / 1e6:.0f} MB", CUT)
                     return
                 yield entry.filename, inside
     except BROKEN as fault:
-        yield f"it is a broken archive: {plain(str(fault), 80)}"
+        yield _broken(fault)
+
+
+def _broken(fault: BaseException) -> ArchiveFault:
+    return ArchiveFault(f"it is a broken archive: {plain(str(fault), 80)}", AGAIN)

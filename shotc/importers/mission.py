@@ -15,11 +15,15 @@ from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, assumption_diagnostics, label
+from shotc.importers.remedies import CUT, into
 from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, readable_text
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
 """Most elements of each kind. More are not a mission, and would take minutes."""
+
+MULTIDRONE = "give a mission of the MultiDrone project, XML with the root `mission`"
+WHERE = "give a `shootingAction` an `RTTrajectory` of points, or an `originOfFormation`"
 
 START = Node("", 1, 1, wide=1)
 USUAL = ImportOptions()
@@ -63,7 +67,7 @@ def _import_cameras(format: str, data: bytes, name: str, options: ImportOptions,
     notes = Notes()
     if len(data) > LARGEST_BYTES:
         footage: ImportedTakes | Refused = Refused(
-            "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START
+            "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START, CUT
         )
         text = ""
     else:
@@ -98,7 +102,7 @@ def _footage(
     if isinstance(root, XmlFault):
         node = Node("", root.line, root.column, wide=1)
         return "" if isinstance(plain, XmlFault) else readable_text(plain), Refused(
-            "I001", root.message, node
+            "I001", root.message, node, root.help
         )
     return "" if isinstance(plain, XmlFault) else readable_text(plain), kml.footage(root, options, notes)
 
@@ -116,22 +120,28 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
     if isinstance(root, XmlFault):
         where = Label(name, Span(root.line, root.column, root.line, root.column + 1))
         return Imported(
-            None, (Diagnostic("I001", f"`{name}` cannot be read: {root.message}", (where,)),), sources
+            None,
+            (Diagnostic("I001", f"`{name}` cannot be read: {root.message}", (where,), help=root.help),),
+            sources,
         )
     if root.tag != "mission":
         message = f"`{name}` is no mission of the MultiDrone project: its root is `{root.tag[:30]}`"
-        return Imported(None, (Diagnostic("I002", message, (label(name, root),)),), sources)
+        return Imported(None, (Diagnostic("I002", message, (label(name, root),), help=MULTIDRONE),), sources)
     for tag, most in MOST.items():
         elements = below(root, tag)
         if len(elements) > most:
             message = f"`{name}` cannot be read: it has {len(elements)} `{tag}`; at most {most} are read"
-            return Imported(None, (Diagnostic("I001", message, (label(name, elements[most]),)),), sources)
+            return Imported(
+                None,
+                (Diagnostic("I001", message, (label(name, elements[most]),), help=into(most, f"`{tag}`")),),
+                sources,
+            )
     notes = Notes()
     sequences = without_far(sequences_of(root, notes), notes)
     frame = frame_of(sequences, notes)
     text = written_mission(PurePath(name).stem, root, sequences, frame, notes)
     if text is None:
         message = f"`{name}` holds no shooting action that says where it is filmed"
-        return Imported(None, (Diagnostic("I003", message, (label(name, root),)),), sources)
+        return Imported(None, (Diagnostic("I003", message, (label(name, root),), help=WHERE),), sources)
     said = assumption_diagnostics(name, notes, strict=strict)
     return Imported(None if has_errors(said) else text.text, said, sources, text.drones, text.shots)

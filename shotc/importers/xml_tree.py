@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from shotc.importers.remedies import AGAIN, CUT
 from shotc.source.xml import StopParsing, feed
 
 LARGEST_BYTES = 4_000_000  # bytes
@@ -53,6 +54,7 @@ class XmlFault(NamedTuple):
     """Why bytes are not XML; line and column from 1."""
 
     message: str
+    help: str
     line: int = 1
     column: int = 1
 
@@ -66,11 +68,12 @@ def readable_text(data: bytes) -> str:
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, because its entities could grow without bound."""
     if len(data) > LARGEST_BYTES:
-        return XmlFault(f"the file is larger than {LARGEST_BYTES / 1e6:.0f} MB")
+        return XmlFault(f"the file is larger than {LARGEST_BYTES / 1e6:.0f} MB", CUT)
     reader = _Reader()
     wrong = feed(data.removeprefix(BOM_UTF8), reader)  # expat would count the mark as a column
     if wrong is not None:
-        return XmlFault(f"it is no XML: {wrong.reason}", wrong.line, wrong.column)
+        help_ = f"correct it there, or {AGAIN}"
+        return XmlFault(f"it is no XML: {wrong.reason}", help_, wrong.line, wrong.column)
     if reader.fault is not None:
         return reader.fault
     assert reader.root is not None
@@ -88,13 +91,13 @@ class _Reader:
         self._count = 0
 
     def doctype(self, *_: Any) -> None:
-        self._stop("it has a document type declaration, which is refused")
+        self._stop("it has a document type declaration, which is refused", "remove `<!DOCTYPE ...>`")
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         node = Node(tag, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, attributes)
         self._count += 1
         if self._count > MOST_NODES or len(self._open) >= DEEPEST_LEVEL:
-            self._stop("it has too many elements, or too deep ones")
+            self._stop("it has too many elements, or too deep ones", CUT)
         if self._open:
             self._open[-1].children.append(node)
         else:
@@ -108,6 +111,7 @@ class _Reader:
     def end(self, _tag: str) -> None:
         self._open.pop()
 
-    def _stop(self, message: str) -> None:
-        self.fault = XmlFault(message, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1)
+    def _stop(self, message: str, help: str) -> None:
+        line, column = self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1
+        self.fault = XmlFault(message, help, line, column)
         raise StopParsing

@@ -1,6 +1,6 @@
 """Top-down: the camera looks straight down on the target, at rest or drifting."""
 
-from math import atan2, hypot, inf, pi, tan
+from math import atan2, hypot, inf, pi, sqrt, tan
 from typing import Literal
 
 from pydantic import Field
@@ -90,7 +90,8 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
             return scene.fault(
                 "K012",
                 f"drone `{shot.drone}` cannot drift {drift:.2f} m/s {direction}",
-                f"drift less than {at_most(min(most, seen))} m/s, or raise the drone's limits",
+                f"drift less than {at_most(min(most, seen))} m/s"
+                + ("" if seen < drift else _faster(direction, drift, speed, limits.acceleration * duration)),
                 "drift",
                 notes=tuple(notes),
             )
@@ -107,6 +108,19 @@ def _seen(shot: TopDownShot, scene: Scene, target: Target) -> float:
         return inf
     high = shot.altitude.first - scene.height_of(target, shot.altitude.above)
     return max(0.0, high) * tan(scene.drone.hfov / 2) / scene.drone.aspect
+
+
+def _faster(direction: str, drift: float, speed: float, gained: float) -> str:
+    """Return by how much a limit has to be raised for a drift, as a remedy; empty where no speed is enough.
+
+    speed  : its present value along the drift, m/s
+    gained : what the acceleration gains in the time of the drift, m/s
+    """
+    if gained <= 4.0 * drift:
+        return ""
+    key = {"across": "speed", "up": "climb", "down": "descent"}[direction]
+    needed = 0.5 * (gained - sqrt(gained * (gained - 4.0 * drift)))  # so that _mean_speed is the drift
+    return f", or raise `limits.{key}` by {at_least(needed - speed)} m/s if it flies that"
 
 
 def _mean_speed(speed: float, acceleration: float, duration: float) -> float:

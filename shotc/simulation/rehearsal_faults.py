@@ -40,7 +40,8 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
                 "W003",
                 f"a wind of {wind:g} m/s carries {name} away: it flies {most:g} m/s",
                 (mission.origins.value(path),),
-                help=f"rehearse with less than {most:g} m/s of wind, or take a faster drone",
+                help=f"rehearse with less than {most:g} m/s of wind, or, if it flies that, raise its "
+                f"`limits.speed` over {at_least(wind)} m/s",
             )
     for name, track in conditions.truth.tracks:
         yield from _untrue(mission, name, track, end)
@@ -82,7 +83,7 @@ def _touches(rehearsed: Rehearsed, each: RequirementVerdict) -> Diagnostic:
         f"a drone's body is {at_least(-each.worst)} m into something in run {each.run}",
         tuple(_touched(rehearsed, each)),
         tuple(_where(rehearsed.run(each.run), each)),
-        "plan with a larger clearance, or fly in less wind",
+        f"plan with {at_least(-each.worst)} m more clearance (`rules`), or fly in less wind",
     )
 
 
@@ -165,7 +166,7 @@ def _untrue(mission: MissionIR, name: str, track: Track, end: float) -> Iterator
             "W004",
             f"the true track of `{name}` ends at {track.times[-1]:g} s, and the plan lands at {end:.1f} s",
             (label,),
-            help="give it rows until the landing",
+            help=f"give it rows until {at_least(end, 1)} s",
         )
     for i, (a, b) in enumerate(pairwise(track.points)):
         start, duration = track.times[i], track.times[i + 1] - track.times[i]

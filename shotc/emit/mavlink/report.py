@@ -53,7 +53,7 @@ def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Dia
         f"the mission file of {drone.name} takes off to {least:.1f} m instead of {height:.1f} m",
         (mission.origins.key(drone.path),),
         (f"{drone.autopilot} refuses a lower take-off",),
-        "begin higher above the pad, or see that the air above it is free",
+        f"fly {least:.1f} m or more above the pad, or see that the air above it is free",
     )
 
 
@@ -100,7 +100,7 @@ def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic
         f"the straight legs of {drone.name} come {depth:.2f} m nearer to {name} than its clearance allows",
         (mission.origins.key(drone.path),),
         ("the plan itself keeps the clearance; waypoints cannot follow it that closely",),
-        "leave more room there, or fly the plan itself with `shotc stream`",
+        f"leave {at_least(depth)} m more room there, or fly the plan itself with `shotc stream`",
     )
 
 

@@ -12,7 +12,7 @@ from statistics import median
 from typing import NamedTuple
 
 from shotc.geom.vec import Vec3
-from shotc.importers.archive import MAGIC, member
+from shotc.importers.archive import MAGIC, ArchiveFault, member
 from shotc.importers.cameras.places import (
     clamped_hfov,
     is_place,
@@ -32,6 +32,7 @@ from shotc.importers.cameras.takes import (
     Take,
 )
 from shotc.importers.notes import Notes, plain
+from shotc.importers.remedies import into
 from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
 
@@ -68,13 +69,13 @@ def unpacked(data: bytes) -> bytes | XmlFault:
     if not data.startswith(MAGIC):
         return data
     document = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST_BYTES)
-    return XmlFault(document) if isinstance(document, str) else document
+    return XmlFault(*document) if isinstance(document, ArchiveFault) else document
 
 
 def footage(root: Node, options: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a KML document."""
     if local(root) != "kml":
-        return Refused("I002", f"it is no KML: its root is `{plain(root.tag, 30)}`", root)
+        return Refused("I002", f"it is no KML: its root is `{plain(root.tag, 30)}`", root, KML)
     tours = [node for node in root.everything() if local(node) == "Tour"]
     toured = [(tour, list(_tour(tour, notes))) for tour in tours]
     if not tours:
@@ -86,7 +87,7 @@ def footage(root: Node, options: ImportOptions, notes: Notes) -> ImportedTakes |
     views = [view for _, some in toured for view in some]
     if len(views) > MOST_CAMERAS:
         message = f"it has {len(views)} cameras; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, views[MOST_CAMERAS].node)
+        return Refused("I001", message, views[MOST_CAMERAS].node, into(MOST_CAMERAS, "cameras"))
     if not views:
         return Refused("I003", "it holds no camera that says where it is", root, RECORD)
     _lens(views, notes)
@@ -100,6 +101,7 @@ def footage(root: Node, options: ImportOptions, notes: Notes) -> ImportedTakes |
     return ImportedTakes(root, without_far(takes, notes), origin)
 
 
+KML = "give a `.kml` or `.kmz`, whose root is `kml`"
 RECORD = (
     "record a tour in Google Earth, or save placemarks with their views (Camera or LookAt), and import that"
 )

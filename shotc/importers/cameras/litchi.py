@@ -19,9 +19,11 @@ from shotc.importers.cameras.takes import (
     recorded,
 )
 from shotc.importers.notes import Notes
+from shotc.importers.remedies import into
 from shotc.ir.mission import GeoOrigin
 
 EXAMPLE = "latitude,longitude,altitude(m),heading(deg),...,gimbalmode,gimbalpitchangle,..."
+PLACES = "give each row numbers in the columns `latitude` and `longitude`"
 FOOT_M = 0.3048
 ACTIONS = range(1, 16)
 STAY, START, STOP, TILT = 0, 2, 3, 5
@@ -37,10 +39,10 @@ def footage(text: str, options: ImportOptions, notes: Notes) -> ImportedTakes | 
         return table
     if len(table.rows) > MOST_CAMERAS:
         message = f"it has {len(table.rows)} waypoints; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, table.rows[MOST_CAMERAS].node)
+        return Refused("I001", message, table.rows[MOST_CAMERAS].node, into(MOST_CAMERAS, "waypoints"))
     rows = [row for row in table.rows if _is_placed(row, notes)]
     if not rows:
-        return Refused("I003", "it holds no waypoint that says where it is", table.node)
+        return Refused("I003", "it holds no waypoint that says where it is", table.node, PLACES)
     origin = origin_at(
         rows[0].number("latitude", notes) or 0.0,
         rows[0].number("longitude", notes) or 0.0,

@@ -34,6 +34,7 @@ from shotc.importers.cameras.takes import (
     recorded,
 )
 from shotc.importers.notes import Notes, plain
+from shotc.importers.remedies import AGAIN, into
 from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 from shotc.source.file import Span
@@ -90,17 +91,26 @@ class Opened(NamedTuple):
     whole: Node
 
 
+PLAN = 'give a `.plan` of QGroundControl, `{"mission": {"items": [...]}}`'
+WAYPOINTS = "add waypoints, command 16, each with latitude, longitude and altitude"
+HOME = "write it as [latitude, longitude, altitude], or leave it out"
+
+
 def opened(data: bytes, name: str) -> Opened | Refused:
     """Return the parts of a plan. It is refused with code I001 if it is no JSON, I002 if it is no plan."""
     document = parse(data.replace(b"\t", b" "), name)  # JSON allows tabs between values, YAML does not
     if document.faults:
         fault = document.faults[0]
-        return Refused("I001", f"it is no JSON: {fault.message}", _node(fault.span))
+        return Refused(
+            "I001", f"it is no JSON: {fault.message}", _node(fault.span), f"correct it there, or {AGAIN}"
+        )
     mission = document.root.get("mission") if isinstance(document.root, dict) else None
     listed = mission.get("items") if isinstance(mission, dict) else None
     whole = _node(document.values.get((), Span(1, 1, 1, 2)))
     if not isinstance(mission, dict) or not isinstance(listed, list):
-        return Refused("I002", "it is no plan of QGroundControl: it has no `mission` with `items`", whole)
+        return Refused(
+            "I002", "it is no plan of QGroundControl: it has no `mission` with `items`", whole, PLAN
+        )
     return Opened(document, mission, listed, whole)
 
 
@@ -112,11 +122,13 @@ def footage(data: bytes, name: str, options: ImportOptions, notes: Notes) -> Imp
     document, mission, listed, whole = plan
     if len(listed) > MOST_CAMERAS:
         message = f"it has {len(listed)} items; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, node_at(document, "mission", "items", MOST_CAMERAS))
+        return Refused(
+            "I001", message, node_at(document, "mission", "items", MOST_CAMERAS), into(MOST_CAMERAS, "items")
+        )
     items = list(_items(document, listed, notes))
     waypoints = [item for item in items if item.command in (WAYPOINT, SPLINE)]
     if not waypoints:
-        return Refused("I003", "it holds no waypoint that says where it is", whole)
+        return Refused("I003", "it holds no waypoint that says where it is", whole, WAYPOINTS)
     origin = _origin(document, mission, waypoints[0], options, notes)
     absolute = [item for item in waypoints if item.frame in SEA_LEVEL]
     if isinstance(origin, Refused):
@@ -191,7 +203,9 @@ def _origin(
         lat, lon, alt = place if len(place) == 3 else (None, None, None)
         if lat is None or lon is None or not is_place(lat, lon):
             node = node_at(document, "mission", "plannedHomePosition")
-            return Refused("I002", "its `plannedHomePosition` is no latitude, longitude and altitude", node)
+            return Refused(
+                "I002", "its `plannedHomePosition` is no latitude, longitude and altitude", node, HOME
+            )
         return origin_at(lat, lon, options.ground if options.ground is not None else (alt or 0.0))
     if options.ground is None:
         message = "the file has no `plannedHomePosition`"

@@ -53,7 +53,12 @@ def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Camera
     first = next((i for i, line in enumerate(lines) if line.strip()), None)
     start = Node("", 1, 1, wide=1)
     if first is None or "\0" in text:
-        return Refused("I001", "it is empty" if first is None else "it is no text", start)
+        return Refused(
+            "I001",
+            "it is empty" if first is None else "it is no text",
+            start,
+            f"give a table that begins with `{example}`",
+        )
     separator = max(SEPARATORS, key=lines[first].count)
     heads = {cell.text.lower(): cell for cell in reversed(_cells(lines[first], first, separator))}
     head = Node("", first + 1, 1, wide=max(1, len(lines[first])))

@@ -102,4 +102,4 @@ class Refused(NamedTuple):
     code: str
     message: str
     node: Node
-    help: str = ""
+    help: str

@@ -57,6 +57,10 @@ class FlightCommand(NamedTuple):
     params: tuple[float | None, ...]
 
 
+FIRMWARE = f"write {PX4} or {ARDUPILOT}, or plan it in QGroundControl for one of these"
+WAYPOINTS = f"fly that part by waypoints, command {WAYPOINT}"
+
+
 @dataclass(slots=True)
 class _ItemReader:
     """The points read so far, and the values in force."""
@@ -78,7 +82,7 @@ def plan(data: bytes, name: str) -> Waypoints:
     firmware = document.mission.get("firmwareType")
     if firmware not in (PX4, ARDUPILOT):
         message = f"its `firmwareType` is {plain(str(firmware), 20)}; PX4 is {PX4}, ArduPilot {ARDUPILOT}"
-        refuse(FOREIGN, message, node_at(document.document, "mission", "firmwareType"))
+        refuse(FOREIGN, message, node_at(document.document, "mission", "firmwareType"), FIRMWARE)
     return _flown(document.whole, list(_of_plan(document)), "px4" if firmware == PX4 else "ardupilot")
 
 
@@ -87,7 +91,7 @@ def table(text: str) -> Waypoints:
     lines = text.splitlines()
     start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
     if not lines or lines[0].strip() != HEADER:
-        refuse(FOREIGN, f"it does not begin with the line `{HEADER}`", start)
+        refuse(FOREIGN, f"it does not begin with the line `{HEADER}`", start, f"begin it with `{HEADER}`")
     items = [_row(line, i) for i, line in enumerate(lines[1:], 2) if line.strip()]
     return _flown(start, items[1:], "ardupilot")
 
@@ -96,11 +100,13 @@ def _row(line: str, index: int) -> FlightCommand:
     cells = line.split("\t") if "\t" in line else line.split()
     node = Node("", index, 1, wide=max(1, len(line)))
     if len(cells) != 12:
-        refuse(BROKEN, f"it has {len(cells)} columns; a row has 12", node)
+        refuse(
+            BROKEN, f"it has {len(cells)} columns; a row has 12", node, "give it 12 columns with tabs between"
+        )
     numbers = [number(cell.strip()) for cell in cells]
     wrong = next((k for k, value in enumerate(numbers) if value is None), None)
     if wrong is not None:
-        refuse(BROKEN, f"`{plain(cells[wrong], 20)}` is no number", node)
+        refuse(BROKEN, f"`{plain(cells[wrong], 20)}` is no number", node, "write a number there")
     known = [0.0 if value is None else value for value in numbers]
     return FlightCommand(node, f"item {known[0]:.0f}", int(known[3]), int(known[2]), tuple(known[4:11]))
 
@@ -169,7 +175,7 @@ def _do(run: _ItemReader, item: FlightCommand) -> None:
     command, p = item.command, item.params
     if command in ASTRAY or command <= LAST_NAVIGATION_COMMAND:
         what = ASTRAY.get(command, "a way that no model here has")
-        refuse(BROKEN, f"{item.name} is command {command}, {what}, which is not judged", item.node)
+        refuse(BROKEN, f"{item.name} is command {command}, {what}, which is not judged", item.node, WAYPOINTS)
     if command == SPEED:
         _speed(run, item)
     elif command in (GIMBAL, MOUNT) and p[0] is not None:
@@ -221,6 +227,11 @@ def _level(item: FlightCommand) -> Level:
 def _point(item: FlightCommand, *, straight: bool) -> FlightPoint:
     lat, lon, height = item.params[4:7]
     if lat is None or lon is None or height is None:
-        refuse(BROKEN, f"{item.name} has no latitude, longitude and altitude", item.node)
+        refuse(
+            BROKEN,
+            f"{item.name} has no latitude, longitude and altitude",
+            item.node,
+            "write all three, or leave the item out",
+        )
     placed(lat, lon, item.name, item.node)
     return FlightPoint(item.node, item.name, lat, lon, height, _level(item), straight=straight)

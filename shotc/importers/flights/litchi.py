@@ -53,7 +53,7 @@ def _point(row: TableRow, index: int, units: dict[str, str]) -> FlightPoint:
     actions = list(actions_of(row, notes))
     wrong: Note | None = next(iter(notes.assumptions), None)
     if wrong is not None:
-        refuse(BROKEN, f"{wrong.message} of {name}", wrong.node)
+        refuse(BROKEN, f"{wrong.message} of {name}", wrong.node, "write a number there")
     return FlightPoint(
         row.node,
         name,
@@ -73,5 +73,5 @@ def _needed(row: TableRow, column: str, name: str, notes: Notes) -> float:
     value = row.number(column, notes)
     if value is None:
         cell = row.cells.get(column, row.node)
-        refuse(BROKEN, f"{name} has no number in its column `{column}`", cell)
+        refuse(BROKEN, f"{name} has no number in its column `{column}`", cell, "write a number there")
     return value

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple, NoReturn
 from shotc.importers.cameras.places import is_place, number
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.notes import plain
+from shotc.importers.remedies import into
 from shotc.importers.xml_tree import Node
 
 Level = Literal["home", "sea", "ground"]
@@ -83,6 +84,10 @@ class Waypoints(NamedTuple):
     ending: str = ""
 
 
+SWAPPED = "write the latitude from -90 to 90 deg, and the longitude from -180 to 180 deg"
+"""The remedy for a place that is none on earth."""
+
+
 class Unread(Exception):
     """Raised by a reader that refuses its file."""
 
@@ -91,7 +96,7 @@ class Unread(Exception):
         self.refused = refused
 
 
-def refuse(code: str, message: str, node: Node, help: str = "") -> NoReturn:
+def refuse(code: str, message: str, node: Node, help: str) -> NoReturn:
     """Refuse a file: raise Unread."""
     raise Unread(Refused(code, message, node, help))
 
@@ -100,23 +105,30 @@ def finite(text: str, what: str, node: Node) -> float:
     """Return a finite number of a file; refuse any other text. ``what``: its description for messages."""
     value = number(text)
     if value is None:
-        refuse(BROKEN, f"{what} is `{plain(text, 20)}`, which is no number", node)
+        refuse(BROKEN, f"{what} is `{plain(text, 20)}`, which is no number", node, "write a number there")
     return value
 
 
 def placed(lat: float, lon: float, what: str, node: Node) -> None:
     """Refuse numbers that are not a latitude and a longitude."""
     if not is_place(lat, lon) or (lat == 0.0 and lon == 0.0):
-        refuse(BROKEN, f"{what} is at {lat:g}, {lon:g} deg, which is no latitude and longitude", node)
+        refuse(
+            BROKEN, f"{what} is at {lat:g}, {lon:g} deg, which is no latitude and longitude", node, SWAPPED
+        )
 
 
 def checked(file: Waypoints) -> Waypoints:
     """Refuse a file without points, with too many, or with different references of height."""
     points = file.points
     if not points:
-        refuse(BROKEN, "it holds no waypoint", file.node)
+        refuse(BROKEN, "it holds no waypoint", file.node, "add a waypoint")
     if len(points) > MOST_POINTS:
-        refuse(UNREADABLE, f"it has {len(points)} waypoints; at most {MOST_POINTS} are read", file.node)
+        refuse(
+            UNREADABLE,
+            f"it has {len(points)} waypoints; at most {MOST_POINTS} are read",
+            file.node,
+            into(MOST_POINTS, "waypoints"),
+        )
     other = next((p for p in points if p.level != points[0].level), None)
     if other is not None:
         message = (

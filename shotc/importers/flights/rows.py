@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from shotc.importers.cameras.places import LARGEST_COORDINATE_M, number
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.notes import plain
+from shotc.importers.remedies import into
 from shotc.importers.xml_tree import Node
 
 Array = NDArray[np.float64]
@@ -28,6 +29,10 @@ CAMERA = ("cam_yaw_rad", "cam_pitch_rad", "hfov_rad")
 WANTED = (TIME, DRONE, *PLACE, *VELOCITY)
 EXAMPLE = ",".join(WANTED)
 MOST_ROWS = 5_000_000
+NUMBER = "write a number there, with a point for decimals"
+ROWS = f"give each drone two rows or more such as `0.0,cam1,0,0,0,0,0,0` under `{EXAMPLE}`"
+BEGIN = f"begin it with a line such as `{EXAMPLE}`; velocities and `{DRONE}` may be left out"
+LATER = "let the times of each drone rise, or leave the row out"
 LONGEST_S = 86_400.0
 """Longest flight, seconds."""
 SHORTEST_S = 1e-4
@@ -86,7 +91,12 @@ class DroneRows:
             for i, text in enumerate(cells or ()):
                 value = number(text)
                 if value is None:
-                    refuse(BROKEN, f"`{names[k]}` is `{plain(text, 20)}`, which is no number", self.node(i))
+                    refuse(
+                        BROKEN,
+                        f"`{names[k]}` is `{plain(text, 20)}`, which is no number",
+                        self.node(i),
+                        NUMBER,
+                    )
                 out[i, k] = value
         return out
 
@@ -101,16 +111,20 @@ def rows(text: str) -> tuple[DroneRows, ...]:
     lines = text.splitlines()
     start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
     if not lines or "\0" in text[:1000]:
-        refuse(UNREADABLE, "it is no text" if lines else "it is empty", start)
+        refuse(UNREADABLE, "it is no text" if lines else "it is empty", start, BEGIN)
     heads = [head.strip().strip('"') for head in lines[0].split(",")]
     columns = {head: k for k, head in reversed(list(enumerate(heads)))}
     lacking = [name for name in (TIME, *PLACE) if name not in columns]
     if lacking:
         names = ", ".join(f"`{name}`" for name in lacking)
-        help_ = f"begin it with a line such as `{EXAMPLE}`; velocities and `{DRONE}` may be left out"
-        refuse(FOREIGN, f"it has no column {names} in its first line", start, help_)
+        refuse(FOREIGN, f"it has no column {names} in its first line", start, BEGIN)
     if len(lines) > MOST_ROWS:
-        refuse(UNREADABLE, f"it has {len(lines) - 1} rows; at most {MOST_ROWS} are read", start)
+        refuse(
+            UNREADABLE,
+            f"it has {len(lines) - 1} rows; at most {MOST_ROWS} are read",
+            start,
+            into(MOST_ROWS, "rows"),
+        )
     numbered = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
     numbers, body = [i for i, _ in numbered], [line for _, line in numbered]
     moves = all(name in columns for name in VELOCITY)
@@ -131,7 +145,7 @@ def rows(text: str) -> tuple[DroneRows, ...]:
     for each in tables:
         check_order(each)
     if not tables:
-        refuse(BROKEN, "it has no row", start)
+        refuse(BROKEN, "it has no row", start, ROWS)
     return tables
 
 
@@ -157,21 +171,35 @@ def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]
             cell = _cell(text, k)
             if number(cell) is None:
                 node = Node("", line, 1, wide=max(1, len(text)))
-                refuse(BROKEN, f"column {k + 1} is `{plain(cell, 20)}`, which is no number below 1e9", node)
-    refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
+                refuse(
+                    BROKEN,
+                    f"column {k + 1} is `{plain(cell, 20)}`, which is no number below 1e9",
+                    node,
+                    NUMBER,
+                )
+    refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1), ROWS)
 
 
 def check_order(table: DroneRows) -> None:
     """Refuse rows that are no flight: too few rows, or times that do not rise."""
     if len(table.time) < 2:
-        refuse(BROKEN, "a drone has one row, and a flight takes two", table.node(0))
+        refuse(BROKEN, "a drone has one row, and a flight takes two", table.node(0), ROWS)
     if table.time[0] < 0.0:
-        refuse(BROKEN, f"it begins at {table.time[0]:g} s, before the mission does", table.node(0))
+        refuse(
+            BROKEN,
+            f"it begins at {table.time[0]:g} s, before the mission does",
+            table.node(0),
+            "let its times count from 0 s",
+        )
     if table.time[-1] > LONGEST_S:
         last = len(table.time) - 1
-        refuse(BROKEN, f"it lasts until {table.time[-1]:g} s, which is no flight", table.node(last))
+        refuse(
+            BROKEN,
+            f"it lasts until {table.time[-1]:g} s, which is no flight",
+            table.node(last),
+            f"let it end by {LONGEST_S:g} s",
+        )
     for i, (a, b) in enumerate(pairwise(table.time.tolist())):
         if b - a < SHORTEST_S:
-            refuse(
-                BROKEN, f"its time, {b:g} s, does not come after that before it, {a:g} s", table.node(i + 1)
-            )
+            message = f"its time, {b:g} s, does not come after that before it, {a:g} s"
+            refuse(BROKEN, message, table.node(i + 1), LATER)

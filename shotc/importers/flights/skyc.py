@@ -17,19 +17,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.geodetic import to_world
-from shotc.importers.archive import Archive
+from shotc.importers.archive import Archive, ArchiveFault
 from shotc.importers.cameras.places import LARGEST_COORDINATE_M, is_place
 from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.light_program import KeyedLight, keyed
-from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
+from shotc.importers.flights.points import BROKEN, FOREIGN, SWAPPED, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain
+from shotc.importers.remedies import AGAIN
 from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 
 Array = NDArray[np.float64]
 
 SHOW = "show.json"
+ORIGIN = "write it as [latitude, longitude, altitude], or leave it out"
+KEY = "write `[seconds, [x, y, z], []]`"
 WHOLE = Node("", 1, 1, wide=1)
 MOST_DRONES, MOST_POINTS = 20_000, 20_000
 MOST_UNPACKED_BYTES = 5 * LARGEST_CLOCKED_BYTES
@@ -102,14 +105,24 @@ def show(data: bytes, *, lit: bool = False) -> SkycShow:
     content = _part(archive, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
         said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
-        refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE)
+        refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE, AGAIN)
     drones = _inside(content, "swarm").get("drones")
     if not isinstance(drones, list) or not 0 < len(drones) <= MOST_DRONES:
-        refuse(BROKEN, f"its `swarm.drones` is no list of 1 to {MOST_DRONES} drones", WHOLE)
+        refuse(
+            BROKEN,
+            f"its `swarm.drones` is no list of 1 to {MOST_DRONES} drones",
+            WHOLE,
+            f"give it 1 to {MOST_DRONES} drones",
+        )
     location = _inside(_inside(content, "environment"), "location")
     turn = location.get("orientation", 0.0)
     if not _is_number(turn):
-        refuse(BROKEN, "its `environment.location.orientation` is no number", WHOLE)
+        refuse(
+            BROKEN,
+            "its `environment.location.orientation` is no number",
+            WHOLE,
+            "write it in degrees, or leave it out",
+        )
     flights = tuple(_flight(archive, drone, i, (radians(turn), lit)) for i, drone in enumerate(drones))
     return SkycShow(flights, _origin(location.get("origin")))
 
@@ -118,10 +131,15 @@ def _origin(value: Any) -> ShowOrigin | None:
     if value is None:
         return None
     if not isinstance(value, list) or len(value) < 2 or not all(map(_is_number, value[:2])):
-        refuse(BROKEN, "its `environment.location.origin` is no latitude and longitude", WHOLE)
+        refuse(BROKEN, "its `environment.location.origin` is no latitude and longitude", WHOLE, ORIGIN)
     lat, lon = float(value[0]), float(value[1])
     if not is_place(lat, lon):
-        refuse(BROKEN, f"its origin is at {lat:g}, {lon:g} deg, which is no latitude and longitude", WHOLE)
+        refuse(
+            BROKEN,
+            f"its origin is at {lat:g}, {lon:g} deg, which is no latitude and longitude",
+            WHOLE,
+            SWAPPED,
+        )
     alt = float(value[2]) if len(value) > 2 and _is_number(value[2]) else None
     return ShowOrigin(lat, lon, alt)
 
@@ -129,12 +147,12 @@ def _origin(value: Any) -> ShowOrigin | None:
 def _part(archive: Archive, name: str) -> Any:
     """Return the JSON value of a part of the archive."""
     data = archive.member(name)
-    if isinstance(data, str):
-        refuse(UNREADABLE, data, WHOLE)
+    if isinstance(data, ArchiveFault):
+        refuse(UNREADABLE, data.message, WHOLE, data.help)
     try:
         return json.loads(data)
     except (ValueError, RecursionError) as fault:
-        refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE)
+        refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE, AGAIN)
 
 
 def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
@@ -154,13 +172,13 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
     settings = _resolved(archive, drone.get("settings")) if isinstance(drone, dict) else None
     element = f"swarm.drones[{index}]"
     if not isinstance(settings, dict):
-        refuse(BROKEN, f"`{element}` has no `settings`", WHOLE)
+        refuse(BROKEN, f"`{element}` has no `settings`", WHOLE, AGAIN)
     name = settings.get("name")
     name = name if isinstance(name, str) else str(index + 1)
     path = _resolved(archive, settings.get("trajectory"))
     where = f"{element}.settings.trajectory"
     if not isinstance(path, dict) or path.get("version") != 1:
-        refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
+        refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE, AGAIN)
     keys, begin = _keys(path, where)
     value = settings.get("home")
     home = value if _is_place(value) else keys[0].place
@@ -188,7 +206,7 @@ def _light(archive: Archive, settings: dict[str, Any], element: str, end: float)
     except ValueError:
         program = None
     if program is None:
-        refuse(BROKEN, f"`{where}` is no program of version 1", WHOLE)
+        refuse(BROKEN, f"`{where}` is no program of version 1", WHOLE, AGAIN)
     return keyed(program, f"{where}.data", end)
 
 
@@ -196,34 +214,45 @@ def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:
     """Return the key points of a trajectory and its start time, s."""
     points, begin = path.get("points"), path.get("takeoffTime", 0.0)
     if not isinstance(points, list) or not 0 < len(points) <= MOST_POINTS:
-        refuse(BROKEN, f"`{where}.points` is no list of 1 to {MOST_POINTS} key points", WHOLE)
+        refuse(
+            BROKEN,
+            f"`{where}.points` is no list of 1 to {MOST_POINTS} key points",
+            WHOLE,
+            f"give it 1 to {MOST_POINTS} key points",
+        )
     if not _is_number(begin) or begin < 0.0:
-        refuse(BROKEN, f"`{where}.takeoffTime` is no time", WHOLE)
+        refuse(
+            BROKEN, f"`{where}.takeoffTime` is no time", WHOLE, "write seconds of 0 or more, or leave it out"
+        )
     keys = [_key(point, f"{where}.points[{i}]") for i, point in enumerate(points)]
     for i, (a, b) in enumerate(pairwise(keys)):
         if b.time - a.time < SHORTEST_S:
             late = f"the time of `{where}.points[{i + 1}]`, {b.time:g} s,"
-            message = f"{late} does not come after {a.time:g} s"
-            refuse(BROKEN, message, WHOLE)
+            later = f"let it be {a.time + SHORTEST_S:g} s or later, or leave the point out"
+            refuse(BROKEN, f"{late} does not come after {a.time:g} s", WHOLE, later)
     if keys[0].time + begin < 0.0:
-        refuse(BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE)
+        refuse(
+            BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE, "let its time be 0 s or later"
+        )
     if keys[-1].time + begin > LONGEST_S:
-        refuse(BROKEN, f"`{where}` lasts until {keys[-1].time + begin:g} s, which is no flight", WHOLE)
+        message = f"`{where}` lasts until {keys[-1].time + begin:g} s, which is no flight"
+        refuse(BROKEN, message, WHOLE, f"let it end by {LONGEST_S:g} s")
     return keys, float(begin)
 
 
 def _key(point: Any, where: str) -> Key:
     if not isinstance(point, list) or len(point) != 3 or not isinstance(point[2], list):
-        refuse(BROKEN, f"`{where}` is no list of 3: a time, a place and control points", WHOLE)
+        refuse(BROKEN, f"`{where}` is no list of 3: a time, a place and control points", WHOLE, KEY)
     time, place, control = point
     if not _is_number(time):
-        refuse(BROKEN, f"the time of `{where}` is no number of seconds", WHOLE)
+        refuse(BROKEN, f"the time of `{where}` is no number of seconds", WHOLE, KEY)
     if len(control) > DEGREE - 1:
         many = f"{len(control)} control points, which make no line, quadratic or cubic"
-        refuse(BROKEN, f"`{where}` has {many}: 0 to {DEGREE - 1} are possible", WHOLE)
+        refuse(BROKEN, f"`{where}` has {many}: 0 to {DEGREE - 1} are possible", WHOLE, KEY)
     for name, at in (("the place", place), *((f"control point {i + 1}", p) for i, p in enumerate(control))):
         if not _is_place(at):
-            refuse(BROKEN, f"{name} of `{where}` is no list of 3 finite numbers", WHOLE)
+            message = f"{name} of `{where}` is no list of 3 finite numbers"
+            refuse(BROKEN, message, WHOLE, "write [x, y, z] in metres")
     return Key(float(time), place[:3], [each[:3] for each in control])
 
 

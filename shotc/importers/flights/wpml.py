@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from shotc.importers.archive import MAGIC, member
+from shotc.importers.archive import MAGIC, ArchiveFault, member
 from shotc.importers.cameras.kml import local
 from shotc.importers.flights.points import (
     BROKEN,
@@ -30,6 +30,9 @@ from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml
 WAYLINES = "wpmz/waylines.wpml"
 NAMESPACE = re.compile(r"http://www\.(uav|dji)\.com/wpmz/1\.0\.[0-6]")
 """Accepted versions. They do not differ in the elements that this module reads."""
+OWN = "export the mission again from DJI Fly, DJI Pilot 2 or FlightHub"
+COORDINATES = "write `<coordinates>LONGITUDE,LATITUDE</coordinates>` in its `Point`"
+HEIGHT = "write its height over the take-off, `<wpml:executeHeight>METRES</wpml:executeHeight>`"
 STOPS = "toPointAndStop"
 STRAIGHT = ("toPointAndStopWithDiscontinuityCurvature", "coordinateTurn")
 LEVELS: dict[str, Level] = {"relativeToStartPoint": "home"}
@@ -40,14 +43,16 @@ ENDINGS = {
     "gotoFirstWaypoint": "it goes back to its first waypoint",
 }
 
+MEANT = ", or ".join(f"`{name}`" for name in ENDINGS)
+
 
 def text_of(data: bytes) -> bytes:
     """Return the XML of a file; for a ``.kmz``, that of its waylines."""
     if not data.startswith(MAGIC):
         return data
     inside = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST_BYTES)
-    if isinstance(inside, str):
-        refuse(UNREADABLE, inside, Node("", 1, 1, wide=1))
+    if isinstance(inside, ArchiveFault):
+        refuse(UNREADABLE, inside.message, Node("", 1, 1, wide=1), inside.help)
     return inside
 
 
@@ -55,12 +60,12 @@ def waypoints(data: bytes) -> Waypoints:
     """Return the points of a wayline from the XML that ``text_of`` returns."""
     root = parse_xml(data)
     if isinstance(root, XmlFault):
-        refuse(UNREADABLE, root.message, Node("", root.line, root.column, wide=1))
+        refuse(UNREADABLE, root.message, Node("", root.line, root.column, wide=1), root.help)
     _version(root)
     folders = [node for node in root.everything() if local(node) == "Folder"]
     if len(folders) != 1:
         message = f"it has {len(folders)} waylines in folders, and one is flown"
-        refuse(FOREIGN, message, folders[1] if folders else root)
+        refuse(FOREIGN, message, folders[1] if folders else root, "give each wayline a file of its own")
     folder = folders[0]
     mode = _inner(folder, "executeHeightMode")
     if mode is None or mode.text.strip() not in LEVELS:
@@ -73,7 +78,12 @@ def waypoints(data: bytes) -> Waypoints:
     ending = _inner(root, "finishAction")
     what = "noAction" if ending is None else ending.text.strip()
     if what not in ENDINGS:
-        refuse(BROKEN, f"`{plain(what, 30)}` is no `finishAction`", ending or root)
+        refuse(
+            BROKEN,
+            f"`{plain(what, 30)}` is no `finishAction`",
+            ending or root,
+            f"write {MEANT}",
+        )
     return checked(
         Waypoints(
             root,
@@ -98,10 +108,10 @@ def _version(root: Node) -> None:
     own = next((space for space in spaces if "wpmz" in space), None)
     if local(root) != "kml" or own is None:
         message = "it is no WPML: it has no root `kml` with the namespace of `wpmz`"
-        refuse(FOREIGN, message, root, "export the mission from DJI Fly, DJI Pilot 2 or FlightHub")
+        refuse(FOREIGN, message, root, OWN)
     if not NAMESPACE.fullmatch(own):
         message = f"it is WPML of another version, `{plain(own, 60)}`; 1.0.0 to 1.0.6 are read"
-        refuse(FOREIGN, message, root)
+        refuse(FOREIGN, message, root, OWN)
 
 
 def _point(mark: Node, index: int, usual: float | None) -> FlightPoint:
@@ -109,12 +119,12 @@ def _point(mark: Node, index: int, usual: float | None) -> FlightPoint:
     where = _inner(mark, "coordinates")
     parts = [] if where is None else where.text.strip().split(",")
     if where is None or len(parts) < 2:
-        refuse(BROKEN, f"{name} has no `coordinates`, longitude and latitude", where or mark)
+        refuse(BROKEN, f"{name} has no `coordinates`, longitude and latitude", where or mark, COORDINATES)
     lon, lat = (finite(part.strip(), f"a coordinate of {name}", where) for part in parts[:2])
     placed(lat, lon, name, where)
     height = _number(mark, "executeHeight")
     if height is None:
-        refuse(BROKEN, f"{name} has no `executeHeight`", mark)
+        refuse(BROKEN, f"{name} has no `executeHeight`", mark, HEIGHT)
     speed = _number(mark, "waypointSpeed")
     speed = usual if speed is None else speed
     mode = _inner(mark, "waypointTurnMode")

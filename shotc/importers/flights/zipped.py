@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.importers.archive import members
+from shotc.importers.archive import ArchiveFault, members
 from shotc.importers.cameras.places import number
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES
@@ -52,8 +52,8 @@ def tables(data: bytes) -> tuple[DroneRows, ...]:
     by_drone: dict[str, DroneRows] = {}
     left = MOST_ROWS
     for member in members(data, _is_table, LARGEST_CLOCKED_BYTES):
-        if isinstance(member, str):
-            refuse(UNREADABLE, member, WHOLE)
+        if isinstance(member, ArchiveFault):
+            refuse(UNREADABLE, member.message, WHOLE, member.help)
         if len(by_drone) == MOST_DRONES:
             refuse(UNREADABLE, f"it has more than {MOST_DRONES} tables, and no more are read", WHOLE, SPLIT)
         table = _Table(plain(member[0], 80), readable_text(member[1]))
@@ -88,7 +88,7 @@ def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
         message = f"`{twin}` is the flight of a drone `{drone}`, too"
         refuse(BROKEN, message, WHOLE, "give each drone one file, with a name of its own")
     if not lines or "\0" in table.text[:1000]:
-        refuse(UNREADABLE, "it is no text" if lines else "it is empty", WHOLE)
+        refuse(UNREADABLE, "it is no text" if lines else "it is empty", WHOLE, f"give it rows of `{EXAMPLE}`")
     first = _cells(lines[0])[0].lower()
     head = first.startswith(HEADS)
     if not head and number(first) is None:
@@ -96,9 +96,9 @@ def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
         refuse(FOREIGN, "its first line is no row, and names no columns", wide, f"begin with `{EXAMPLE}`")
     numbered = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and not (head and i == 1)]
     if not numbered:
-        refuse(BROKEN, "it has no row", WHOLE)
+        refuse(BROKEN, "it has no row", WHOLE, f"give it rows of `{EXAMPLE}`")
     if len(numbered) > left:
-        refuse(UNREADABLE, f"the archive has more than {MOST_ROWS} rows, and no more are read", WHOLE)
+        refuse(UNREADABLE, f"the archive has more than {MOST_ROWS} rows, and no more are read", WHOLE, SPLIT)
     return _numbered(drone, table.name, numbered)
 
 
@@ -130,7 +130,7 @@ def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
         message = (
             f"{COLORS[k]} is {colors[i, k]:g}, and a light is a whole number from 0 to {BRIGHTEST_LEVEL}"
         )
-        refuse(BROKEN, message, rows.node(i))
+        refuse(BROKEN, message, rows.node(i), f"write a whole number from 0 to {BRIGHTEST_LEVEL}")
 
 
 def _all_land(tables: tuple[DroneRows, ...]) -> None:

@@ -9,6 +9,7 @@ from math import degrees, hypot, pi, radians
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.camera import heading_of
 from shotc.geom.vec import Vec2
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
@@ -103,10 +104,30 @@ def cropped_or_beyond(keyframe: Keyframe, setting: FixedCamera, aim: Vec2) -> Mi
         over,
         f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
         (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
-        lambda mission, shot: ", or ".join(
-            ["turn the camera towards it", "move away", *_wider(keyframe, setting, aim, (mission, shot))]
-        ),
+        partial(_all_of_it, keyframe, setting, aim),
     )
+
+
+def _all_of_it(keyframe: Keyframe, setting: FixedCamera, aim: Vec2, mission: MissionIR, shot: Shot) -> str:
+    """Return the angles, the place and the lens of which each alone shows the whole target."""
+    options = (
+        _towards(keyframe, setting),
+        farther(mission, shot, keyframe, setting, lambda s: s.margin(aim) >= -TOUCH_M),
+        *_wider(keyframe, setting, aim, (mission, shot)),
+    )
+    return ", or ".join(option for option in options if option) or "make the target smaller"
+
+
+def _towards(keyframe: Keyframe, setting: FixedCamera) -> str:
+    """Return the angles straight at a target, where they show all of it; else empty."""
+    straight = setting.aim((0.0, 0.0))
+    if straight is None or not keyframe.placed or not reaches(setting.pitch, straight[1]):
+        return ""
+    compass, pitch = round(degrees(heading_of(straight[0]))), round(degrees(straight[1]))
+    written = (radians(90.0 - compass), radians(pitch))
+    if not reaches(setting.pitch, written[1]) or setting.margin(written) < -TOUCH_M:
+        return ""
+    return f"write `heading: {compass} deg, pitch: {pitch} deg`"
 
 
 def _wider(

@@ -57,8 +57,20 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
             "other numbers of the shot decide how far away the camera is",
             _instead(mission, worst, required),
         ),
-        f"change those numbers or the lens, or leave `size` out{_framed(mission, placed, required)}",
+        f"{_numbers(mission, placed, looks, required)}, or leave `size` out"
+        f"{_framed(mission, placed, required)}",
     )
+
+
+def _numbers(mission: MissionIR, placed: PlacedShot, looks: list[SizeCase], required: float) -> str:
+    """Return the lens that gives a target of one size all along the size that is asked for, in words."""
+    look = looks[0]
+    same = all(abs(other.size / look.size - 1.0) <= OFF_SIZE_SHARE for other in looks)
+    subject = RequiredView(mission.target(look.name).centre, mission.target(look.name).shape, look.uv)
+    hfov = lens_for(subject, look.lens, look.offset, required) if same else None
+    if hfov is None or any((*k.path, "hfov") in mission.origins.values for k in placed.shot.keyframes):
+        return "change those numbers or the lens"
+    return f"film it with `camera: {{hfov: {degrees(hfov):.1f} deg}}` of `{placed.shot.drone}`"
 
 
 def _framed(mission: MissionIR, placed: PlacedShot, required: float) -> str:

@@ -6,7 +6,7 @@ nearest to the middle at which the target is whole, half way through the shot.
 
 from __future__ import annotations
 
-from math import degrees, pi
+from math import degrees, hypot, pi
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.shapes import POINT
@@ -15,7 +15,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
-from shotc.passes.place_keyframes.farther import least
+from shotc.passes.place_keyframes.farther import FARTHEST_RATIO, least
 from shotc.passes.place_keyframes.faults import WIDEST_RAD
 from shotc.planning.framing.candidates import TOUCH_M, FixedCamera, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
@@ -87,14 +87,39 @@ def _whole(mission: MissionIR, shot: Shot, setting: FixedCamera, composition: Co
     def fits(hfov: float) -> bool:
         return nearest_candidate(setting._replace(hfov=hfov), composition, MIDDLE) is not None
 
+    farther = _farther(mission, shot, setting, composition)
     wide = least(fits, setting.hfov, WIDEST_RAD) if setting.hfov < WIDEST_RAD else None
     if wide is None:
-        return ""
+        return farther
     lens = at_least(degrees(wide), 1)
     drone = mission.drone(shot.drone)
     zooms = drone.zooms_unasked and drone.lens is not None and wide <= drone.lens.widest
-    first = "plan it with the refiner `ours`, which zooms there, or film it" if zooms else "film it"
-    return f"{first} from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
+    options = (
+        "plan it with the refiner `ours`, which zooms there" if zooms else "",
+        farther,
+        f"film it through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`",
+    )
+    return ", or ".join(option for option in options if option)
+
+
+def _farther(mission: MissionIR, shot: Shot, setting: FixedCamera, composition: Composition) -> str:
+    """Return the distance at which a whole target fits at a place of its composition; empty if none does.
+
+    A distance that the mission writes is level; otherwise the camera goes straight back.
+    """
+    level = (*shot.path, "distance") in mission.origins.values
+    x, y, z = setting.offset
+
+    def fits(k: float) -> bool:
+        back = setting._replace(offset=(x * k, y * k, z if level else z * k))
+        return nearest_candidate(back, composition, MIDDLE) is not None
+
+    k = least(fits, 1.0, FARTHEST_RATIO)
+    if k is None:
+        return ""
+    if level and (*shot.path, "distance", 0) not in mission.origins.values:
+        return f"write `distance: {at_least(k * hypot(x, y), 1)} m` or more"
+    return f"film it from {at_least(k * hypot(x, y, z), 1)} m away or farther"
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> FixedCamera:

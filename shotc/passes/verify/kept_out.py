@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import degrees
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.measures import measure
 from shotc.ir.path import CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import ticks
@@ -18,6 +17,9 @@ from shotc.passes.verify.meeting import filming, put_off
 from shotc.passes.verify.sight import CameraAndBody
 from shotc.rounding import at_least
 
+BEYOND_M, BEYOND_RAD = 0.01, 1e-3  # by which a body is out of the frame beyond what is asked
+FARTHEST_M = 1000.0  # metres up to which another place is searched
+HALVINGS = 30  # bisection steps of that search
 BEYOND_DEG = 0.5  # degrees that a camera is turned beyond the least angle
 
 
@@ -28,16 +30,16 @@ def kept_out(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
     """
     mission, other = sight.mission, sight.other
     times = ticks(mission.rate, phase.start, phase.end)
-    if _pad_is_seen(sight, times, claim):
-        yield f"move the home of `{other.drone}`, which is in the picture, too"
-    elif other.phases:
-        yield from _another_time(sight, phase)
+    if not _pad_is_seen(sight, times, claim):
+        yield from _another_time(sight, phase) if other.phases else ()
+    elif not other.phases:
+        yield f"move the home of `{other.drone}` out of the picture"
     turn = _turned(sight, times, phase)
     if turn:
         yield turn
-    lack = measure(claim.limit - claim.worst, claim.unit)
-    farther = f"{lack} farther off the axis" if claim.unit == "rad" else f"{lack} farther aside"
-    yield f"film from where `{other.drone}` is {farther}"
+    aside = _aside(sight, times, claim)
+    if aside:
+        yield f"film from where `{other.drone}` is {aside} in the picture"
 
 
 def _pad_is_seen(sight: CameraAndBody, times: Array, claim: Claim) -> bool:
@@ -56,6 +58,43 @@ def _another_time(sight: CameraAndBody, phase: Phase) -> Iterator[str]:
     else:
         landed = Phase(other.name, other.shot, other.start, sight.other.curve.end)
         yield put_off(sight.mission, landed, (sight.film, phase))
+
+
+def _aside(sight: CameraAndBody, times: Array, claim: Claim) -> str:
+    """Return the shortest way to a side or up that leads the other drone out of every frame, in words."""
+    places, yaw = sight.other.curve(times)[:, :3], sight.film.curve(times)[:, CAM_YAW]
+    right = np.stack([np.sin(yaw), -np.cos(yaw), np.zeros(len(yaw))], axis=1)
+    ways = {
+        "farther to the right": right,
+        "farther to the left": -right,
+        "higher": np.array([[0.0, 0.0, 1.0]]),
+    }
+
+    beyond = BEYOND_RAD if claim.unit == "rad" else BEYOND_M
+
+    def out(way: Array, metres: float) -> bool:
+        return bool((sight.out_at(times, places + metres * way) >= claim.limit + beyond).all())
+
+    found = []
+    for word, way in ways.items():
+        metres = _least_that(lambda m, way=way: out(way, m), FARTHEST_M)  # type: ignore[misc]
+        if metres is not None:
+            found.append((metres, word))
+    if not found:
+        return ""
+    metres, word = min(found)
+    return f"{at_least(metres, 1)} m {word}"
+
+
+def _least_that(fits: Callable[[float], bool], most: float) -> float | None:
+    """Return the least number up to ``most`` that fits, by bisection; None where the greatest does not."""
+    low, high = 0.0, most
+    if not fits(high):
+        return None
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if fits(middle) else (middle, high)
+    return high
 
 
 def _turned(sight: CameraAndBody, times: Array, phase: Phase) -> str:

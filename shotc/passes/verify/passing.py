@@ -20,7 +20,7 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.ir.transits import TransitInterval, transit_intervals
 from shotc.passes.verify.claims import first_least, gap, slack
 from shotc.passes.verify.transits import ENDING, on_way, taper_of
-from shotc.rounding import at_most
+from shotc.rounding import at_least, at_most
 
 HARD, SOFT = "V035", "V034"
 WORTH_SHARE = 0.1  # share of an unstated clearance; a smaller lack gets no warning
@@ -123,13 +123,18 @@ def _diagnostic(ir: TrajectoryIR, together: list[tuple[Claim, ClosestPass]]) -> 
     keys = sorted({c.path[-1]: f"{c.path[-1]}: {_accepted(c, together)} m" for c, _ in together}.values())
     help_ = (
         f"write `rules: {{transit_clearance: {{{', '.join(keys)}}}}}` to accept and hold that, "
-        "or give the way more room"
+        f"or give the way {_room(together)} m more room"
     )
     return Diagnostic(SOFT, message, tuple(_labels(ir, claim, worst)), tuple(notes), help_)
 
 
 def _accepted(claim: Claim, together: list[tuple[Claim, ClosestPass]]) -> str:
     return _held(min(p.least for c, p in together if c.path == claim.path))
+
+
+def _room(together: list[tuple[Claim, ClosestPass]]) -> str:
+    """Return what the narrowest pass lacks, metres, on both sides: a way leads midway where it is narrow."""
+    return at_least(2.0 * max(c.limit - p.least for c, p in together))
 
 
 def _held(least: float) -> str:
@@ -140,9 +145,12 @@ def _held(least: float) -> str:
 def _refused(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Diagnostic:
     message = f"{claim.subject} passes {_near(claim, passed)}"
     key = claim.path[-1]
+    targets = ir.keyframes.mission.targets
+    moves = any(t.path == passed.path and t.track is not None for t in targets)
+    later = "start the shot at another time, or " if moves else ""
     help_ = (
-        f"lower `transit_clearance.{key}` to {_held(passed.least)} m, or start the shot at another "
-        "time, or give the way more room; then plan again"
+        f"lower `transit_clearance.{key}` to {_held(passed.least)} m, or {later}give the way "
+        f"{_room([(claim, passed)])} m more room; then plan again"
     )
     notes = (_when(claim, passed), *filter(None, (passed.counts_from,)))
     return Diagnostic(HARD, message, tuple(_labels(ir, claim, passed)), notes, help_)

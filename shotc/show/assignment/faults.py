@@ -7,7 +7,7 @@ from math import ceil
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.apart import spacing, straight_spacing, stretch
+from shotc.geom.apart import straight_spacing, stretch
 from shotc.geom.separation import Nearest
 from shotc.ir.effects import Effect, Way
 from shotc.ir.mission import MissionIR
@@ -67,7 +67,7 @@ def too_fast(
             f"{UNITS[least.limit]}",
         ),
         f"give it `{transition_key(mission, picture)}: {shortest}`, leave it out to have it as fast as the "
-        "pace allows, or bring the pictures nearer",
+        "pace allows",
     )
 
 
@@ -184,11 +184,11 @@ def no_room(
     to = "on its way home" if picture is None else "on its way to this picture"
     far = straight_spacing(fleet.apart)
     help_ = (
-        f"place its pictures {metres} m farther away from there, make them "
-        f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones"
+        f"place its pictures farther away from there, or make pictures and pads so wide that drones stand "
+        f"{at_least(far)} m apart"
     )
     if height is not None:
-        help_ = f"write `rules: {{max_height: {height}}}`, or {help_}"
+        help_ = f"write `rules: {{max_height: {height}}}`"
     return Diagnostic(
         "D089",
         f"{fleet.words} swells into {what} {to}: {metres} m are missing",
@@ -220,7 +220,7 @@ def no_way_over(
     where = mission.origins.key(fleet.path if picture is None else picture.path)
     to = "home" if picture is None else "to this picture"
     note = f"its straight ways lack {at_least(straight.metres)} m there"
-    help_ = "place the pictures, or the pads, where the way between them is free, or higher"
+    help_ = "place the pictures or the pads where the way between them is free"
     labels = [where, beside]
     if risen is not straight:
         over, rule = _in_the_way(mission, risen)

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import severity_of
-from tests.support.remedies.apply import Remedy, remedies
+from tests.support.remedies.apply import Remedy, alternatives, remedies
+from tests.support.remedies.by_hand import Hand, edited
 
 Judge = Callable[[str], list[Diagnostic]]
+
+
+class Tried(NamedTuple):
+    """What became of the alternatives of the helps of a mission.
+
+    wrong   : those that do not help
+    untried : those for which there is neither a rule nor a choice
+    """
+
+    wrong: list[str]
+    untried: list[str]
 
 
 def helps(mission: str, fault: Diagnostic, before: list[Diagnostic], judged: Judge) -> bool:
@@ -29,3 +42,20 @@ def failed(text: str, judged: Judge) -> tuple[list[Remedy], list[str]]:
             if not any(helps(mission, fault, before, judged) for mission in remedy.missions):
                 wrong.append(remedy.text)
     return found, wrong
+
+
+def tried_all(text: str, judged: Judge, hands: Sequence[Hand]) -> Tried:
+    """Try every alternative of every help of a mission: by the choice for it, or else by rule."""
+    before = judged(text)
+    wrong, untried = [], []
+    for fault in before:
+        assert fault.help, f"{fault.code} has no help"
+        missions = {remedy.text: remedy.missions for remedy in remedies(text, fault)}
+        for said in alternatives(fault.help):
+            chosen = [edited(text, hand) for hand in hands if (hand.code, hand.said) == (fault.code, said)]
+            ways = chosen or missions.get(said, ())
+            if not ways:
+                untried.append(said)
+            elif not any(helps(mission, fault, before, judged) for mission in ways):
+                wrong.append(said)
+    return Tried(wrong, untried)

@@ -81,7 +81,7 @@ error[V002]: cam1: acceleration is 36 m/s^2, at most 3 m/s^2 is allowed
    = note: worst at (1.12, -60.00, 20.00) m
    = note: at t = 10.250 s
    = note: proved between the file's places, too
-   = help: change speed more gently there
+   = help: change speed more gently there, by 33 m/s^2 at least
 
 2 errors found
 """

@@ -8,13 +8,15 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.line_of_sight import crosses
-from shotc.geom.solids import Solid
+from shotc.geom.solids import Solid, depth
 from shotc.geom.vec import Vec3
 from shotc.ir.allow import HIDDEN
 from shotc.ir.begins import film_end
 from shotc.ir.mission import MissionIR, Shot, Zone
 from shotc.ir.target import Target
+from shotc.rounding import at_least
 
+LEAST_MOVE_M = 0.01  # metres that a target is moved beyond the border of a zone
 TRACK_HALVINGS = 40  # bisection steps for where a track enters a zone
 
 
@@ -86,10 +88,12 @@ def _diagnostic(mission: MissionIR, target: Target, zone: Zone, met: TargetPosit
     comes = met.time > 0.0
     state = "comes into" if comes else "stands in" if target.track is None else "begins in"
     where = f"at t = {met.time:.2f} s its centre is at {place}" if comes else f"its centre is at {place}"
+    deep = at_least(depth(zone.solid, met.at) + LEAST_MOVE_M)
+    by = "" if comes or target.track is not None else f" by {deep} m"
     return Diagnostic(
         "G023",
         f"target `{target.name}` {state} keep-out zone `{zone.name}`",
         (mission.origins.key(target.path), mission.origins.key(zone.path, "the zone")),
         (f"{where}, within the zone, and no camera outside of it sees it there",),
-        "move the target or the zone; or write `allow: [hidden-subject]` in what films it",
+        f"move the target or the zone{by}, or write `allow: [hidden-subject]` in what films it",
     )

@@ -17,7 +17,7 @@ from shotc.passes.labels import framing_label
 from shotc.planning.framing.candidates import FixedCamera
 from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import explicit_aim, setting_of
-from shotc.rounding import at_least, at_most
+from shotc.rounding import at_least, at_most, down, up
 
 SAME_PLACE_M = 1e-3  # metres within which a point is the camera's own place
 
@@ -61,12 +61,19 @@ def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | N
     drone = mission.drone(shot.drone)
     if (len(keyframe.aim) == 2 or keyframe.target is None) and not drone.gimbal.reaches(aim[1]):
         key = "pitch" if len(keyframe.aim) == 2 else "look_at"
-        return beyond_gimbal(mission, drone, (*keyframe.path, key), aim[1])
+        shown = keyframe.target is None or _unseen(mission, drone, keyframe, aim) is None
+        return beyond_gimbal(mission, drone, (*keyframe.path, key), aim[1], shown=shown)
     return None if keyframe.target is None else _unseen(mission, drone, keyframe, aim)
 
 
-def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float) -> Diagnostic:
-    """Return the fault of a pitch out of the gimbal's range; ``path`` is its key path."""
+def beyond_gimbal(
+    mission: MissionIR, drone: Drone, path: KeyPath, pitch: float, *, shown: bool = True
+) -> Diagnostic:
+    """Return the fault of a pitch out of the gimbal's range.
+
+    path  : its key path
+    shown : whether a camera that pitches so far shows what it films
+    """
     low, high = (degrees(p) for p in drone.gimbal.pitch)
     required = degrees(pitch)
     labels = (
@@ -78,8 +85,14 @@ def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float)
         f"the gimbal cannot pitch to {required:.1f} deg",
         labels,
         (f"the gimbal of `{drone.name}` reaches {low:.1f} to {high:.1f} deg",),
-        f"pitch the camera to {max(low, min(high, required)):.1f} deg, or take a gimbal that reaches farther",
+        f"pitch the camera to {max(low, min(high, required)):.1f} deg"
+        + (f", or take a gimbal of {_range_to(low, high, required)} for `{drone.name}`" if shown else ""),
     )
+
+
+def _range_to(low: float, high: float, required: float) -> str:
+    """Return a gimbal's range in degrees that has a pitch in it, as it is written."""
+    return f"`gimbal: {{pitch: [{min(low, down(required, 1)):g} deg, {max(high, up(required, 1)):g} deg]}}`"
 
 
 def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> Diagnostic | None:

@@ -47,6 +47,21 @@ def for_sizes(fits: Fits, mission: MissionIR, shot: Shot, target: str, most: flo
         yield f"ask for `size: {size:g}` or less of every subject"
 
 
+def for_compromise(exactly: Fits, mission: MissionIR, shot: Shot) -> str:
+    """Return each size or view of one of several subjects without which all else is had, as remedies.
+
+    exactly : whether a framing appears as written
+    shot    : before its subjects have places on screen
+    """
+    found = []
+    for subject in shot.subjects:
+        for key, less in (("size", subject._replace(size=None)), ("view", subject._replace(view=None))):
+            asked = less != subject and (*subject.path[:-1], key) in mission.origins.values
+            if asked and exactly(mission, _with(shot, subject, less)):
+                found.append(f"leave `{key}` of `{subject.target}` out")
+    return ", or ".join(found) or "leave out what matters least"
+
+
 def for_size_and_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float
 ) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from math import asin, degrees, dist, hypot, isnan
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from shotc.passes.resolve.checks.framing_detours import for_hidden, why_not_dire
 from shotc.passes.resolve.checks.framing_remedies import (
     as_at,
     for_azimuth,
+    for_compromise,
     for_elevation,
     for_free_elevation,
     for_lens,
@@ -62,10 +64,11 @@ def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = T
         yield from _together(mission, course, advise)
 
 
-def _fits(mission: MissionIR, shot: Shot) -> bool:
-    """Return whether a framing is feasible as written."""
+def _fits(mission: MissionIR, shot: Shot, *, exactly: bool = False) -> bool:
+    """Return whether a framing is feasible as written; exactly : without a compromise."""
     course = course_of(mission, shot, first_start(mission, shot))
-    return not has_errors(check_course(mission, course, advise=False))
+    faults = [*check_course(mission, course, advise=False)]
+    return not (faults if exactly else has_errors(faults))
 
 
 def _either(*remedies: Iterator[str], otherwise: str) -> str:
@@ -286,7 +289,7 @@ def _together(mission: MissionIR, course: StartedFraming, advise: bool) -> Itera
             f"{what} shot `{shot.id}` cannot all {'be had' if near else 'appear as asked'} at once",
             tuple(labels),
             (*notes, *why_not_direct(mission, course)),
-            "leave out what matters least, or make what matters most a promise by `require`",
+            for_compromise(partial(_fits, exactly=True), mission, course.asked) if advise else "",
         )
 
 
@@ -329,9 +332,7 @@ def _apart(
     seen: Sequence[_SeenAt],
     advise: bool,
 ) -> Diagnostic | None:
-    """Return the fault of a subject that is out of the picture, or much too small because of others,
-    or None.
-    """
+    """Return the fault of a subject out of the picture, or much too small because of others, or None."""
     shot = course.shot
     others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject) or "its camera near there"
     label = mission.origins.value(subject.path)

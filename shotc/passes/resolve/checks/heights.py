@@ -93,8 +93,8 @@ def _below_foot(mission: MissionIR, shot: Shot, film: Way) -> Iterator[Diagnosti
         f"the camera of shot `{shot.id}` is below the foot of target `{shot.subject}`",
         (mission.origins.value(key),),
         (f"it is at z = {deepest.at[2]:.2f} m, the target's foot at z = {deepest.foot:.2f} m",),
-        f"raise it, or write `altitude: {{above: origin, height: {_written([m.at[2] for m in film])}}}` "
-        "if it is to be that low",
+        f"raise it by {at_least(deepest.foot - deepest.at[2])} m, or write `altitude: {{above: origin, "
+        f"height: {_written([m.at[2] for m in film])}}}` if it is to be that low",
     )
 
 

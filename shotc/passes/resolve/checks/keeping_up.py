@@ -19,7 +19,7 @@ from shotc.ir.framed import course_of
 from shotc.ir.ideal import CATCH_UP_RATIO, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import MissionIR, Shot
-from shotc.rounding import down, up
+from shotc.rounding import at_most, down, up
 
 WINDOW_S = 2.0  # seconds over which the mean speed is measured
 IDEAL_SAMPLES = 200  # samples of an ideal
@@ -58,7 +58,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         *_less_at_once(mission, shot, worst / limit),
         *_straight(mission, shot, limit),
         f"raise `{_faster(mission, shot, worst, starts[0])}` of `{drone.name}` if it flies that",
-        *_slower(mission, shot),
+        *_slower(mission, shot, worst / limit),
     ]
     yield Diagnostic(
         "M005",
@@ -264,14 +264,19 @@ def _straight(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
         yield "leave `turn: course` out, which swings the camera round where the target bends"
 
 
-def _slower(mission: MissionIR, shot: Shot) -> Iterator[str]:
-    """Yield the remedy to slow the target down, where the mission gives its speed."""
+def _slower(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
+    """Yield the remedy to slow the target down, where the mission gives its speed.
+
+    share : how many times as fast as the drone the camera would have to be
+    """
     ideal = shot.ideal
     if ideal is None or ideal.target is None:
         return
     path = (*mission.target(ideal.target).path, "track")
     if any((*path, key) in mission.origins.values for key in ("speed", "velocity", "times")):
-        yield f"slow down `{ideal.target}`"
+        known_wind = mission.drone(shot.drone).limits.wind != (0.0, 0.0)
+        far = "" if known_wind else f" to {at_most(1.0 / share)} times its speed"
+        yield f"slow down `{ideal.target}`{far}"
 
 
 def _moved(shot: Shot, move: Callable[[Vec3], Vec3]) -> Shot:

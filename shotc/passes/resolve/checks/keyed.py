@@ -13,6 +13,7 @@ from math import ceil, cos, degrees, floor, sin
 from shotc.diag.model import Diagnostic
 from shotc.geom.ease import MOST_PARTS
 from shotc.ir.begins import first_start
+from shotc.ir.drone import LensRange
 from shotc.ir.keyed import arrivals, in_order, zoom_parts
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
@@ -21,7 +22,7 @@ from shotc.ir.target import Target
 from shotc.passes.resolve.checks.places import blocked, too_low
 from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments
-from shotc.rounding import at_least
+from shotc.rounding import at_least, up
 
 ZOOM_RATE_SHARE = 1.0 - 1.0 / MOST_PARTS - 1e-5
 """Largest mean rate of a zoom over the lens's rate, because the zoom accelerates and decelerates."""
@@ -61,6 +62,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
         if lens is None or zoom_parts(shot, lens)[i] is not None or seconds <= 0.0:
             continue
         change, reach = abs(b.hfov - a.hfov), ZOOM_RATE_SHARE * lens.rate * seconds
+        needed = change / (ZOOM_RATE_SHARE * lens.rate)
         inside = degrees(a.hfov + (reach if b.hfov > a.hfov else -reach))
         nearer = f"{(floor if b.hfov > a.hfov else ceil)(10 * inside) / 10:g}"
         label = mission.origins.value((*b.path, "hfov"))
@@ -73,11 +75,24 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
                 (label,),
                 (
                     f"it has {degrees(lens.rate):.4g} deg/s (`zoom_rate`), and speeds up and slows down:"
-                    f" the zoom takes {at_least(change / (ZOOM_RATE_SHARE * lens.rate))} s",
+                    f" the zoom takes {at_least(needed)} s",
                 ),
-                f"write `hfov: {nearer} deg`, or give it more time",
+                f"write `hfov: {nearer} deg`{_longer(shot, lens, i, needed)}",
             ),
         )
+
+
+def _longer(shot: Shot, lens: LensRange, i: int, needed: float) -> str:
+    """Return the duration that gives the zoom from keyframe ``i`` its time, or else that time."""
+    arrive, duration = arrivals(shot), shot.timing.duration
+    holds = sum(k.hold for k in shot.keyframes)
+    if duration is not None and all(k.time is None for k in shot.keyframes):
+        share = needed / (arrive[i + 1] - arrive[i] - shot.keyframes[i].hold)
+        seconds = up(holds + (duration - holds) * share, 1)
+        longer = shot._replace(timing=shot.timing._replace(duration=seconds))
+        if zoom_parts(longer, lens)[i] is not None:
+            return f", or write `duration: {seconds:g} s`"
+    return f", or give it {at_least(needed)} s"
 
 
 def _level(target: Target) -> bool:

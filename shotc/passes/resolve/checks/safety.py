@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, isfinite
+from itertools import count
+from math import ceil, cos, isfinite, radians, sin
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
 from shotc.ir.drone import Drone, Safety
-from shotc.ir.mission import MissionIR
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR, Zone
+from shotc.passes.resolve.checks.home import BEARINGS_DEG
+from shotc.planning.clearances import move, outward
+
+RALLY_STEP_M = 1.0  # metres between the distances at which another rally point is searched
+RALLY_MOST_M = 300.0  # metres from the present one up to which it is searched
 
 
 def check_safety(mission: MissionIR) -> Iterator[Diagnostic]:
@@ -51,10 +58,7 @@ def _low(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnosti
 def _rally(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnostic]:
     for i, place in enumerate(safety.rally):
         for zone in mission.zones:
-            # It is approached from above, so its height is not checked.
-            level = min(max(place[2], zone.solid.bottom + drone.radius), zone.solid.top - drone.radius)
-            apart = signed_distance(zone.solid, (place[0], place[1], level))
-            if (apart < drone.radius) if zone.keep == "out" else (apart > -drone.radius):
+            if _wrong(zone, drone, place):
                 yield Diagnostic(
                     "G054",
                     f"rally point {i + 1} of `{drone.name}` is {'in' if zone.keep == 'out' else 'outside of'}"
@@ -64,5 +68,27 @@ def _rally(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnos
                         mission.origins.key(zone.path, "the zone"),
                     ),
                     (),
-                    "move it",
+                    _elsewhere(mission, drone, place),
                 )
+
+
+def _wrong(zone: Zone, drone: Drone, place: Vec3) -> bool:
+    """Return whether a rally point is in a keep-out zone or outside of a keep-in zone, or nearly so."""
+    # It is approached from above, so its height is not checked.
+    level = min(max(place[2], zone.solid.bottom + drone.radius), zone.solid.top - drone.radius)
+    apart = signed_distance(zone.solid, (place[0], place[1], level))
+    return apart < drone.radius if zone.keep == "out" else apart > -drone.radius
+
+
+def _elsewhere(mission: MissionIR, drone: Drone, place: Vec3) -> str:
+    """Return the move of a rally point to the nearest place that was found, in words."""
+    x, y, z = place
+    for ring in count(1):
+        reach = ring * RALLY_STEP_M
+        for turn in BEARINGS_DEG:
+            there = outward(place, (x + reach * cos(radians(turn)), y + reach * sin(radians(turn)), z))
+            if not any(_wrong(zone, drone, there) for zone in mission.zones):
+                return move(place, there)
+        if reach > RALLY_MOST_M:
+            return "move it, or the zone"
+    raise AssertionError

@@ -310,6 +310,7 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         labels,
         (f"it flies {at_least(speed, 1)} m/s at most, and the wind takes {wind:.1f} m/s of that",),
         f"wait for wind below {min(none, half):.1f} m/s, which leaves it half its speed "
-        f"({none:.1f} m/s leave it next to none), or take a faster drone",
+        f"({none:.1f} m/s leave it next to none), or, if it flies that, raise `limits.speed` to "
+        f"{at_least(2.0 * wind, 1)} m/s",
     )
     return [diagnostic]

@@ -13,6 +13,7 @@ from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
+PLAY_M = 0.02  # metres beyond what the solver finds that obstacles have to give way
 MOST_REPORTED = 5  # intervals of a shot that are listed
 SILENT = "rules: {mutual_visibility: {strength: off}}"
 
@@ -50,9 +51,20 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
         tuple(labels),
         tuple(notes),
         ("write `smoothing: normal`, or " if calm else "")
-        + "give the shot more room, or the drone higher limits"
+        + _room(mission, stretches)
         + (f", or let drones be seen by `{SILENT}`" if PICTURES in causes else ""),
     )
+
+
+def _room(mission: MissionIR, stretches: list[ClockDeviation]) -> str:
+    """Return how far to move what stands in the way of a shot, or else what lets its drone keep up."""
+    owners = {d.cause: owner_of(mission, d.cause) for d in stretches}
+    moves = []
+    for cause, owner in owners.items():
+        if owner is not None:
+            most = at_least(max(d.distance for d in stretches if d.cause == cause))
+            moves.append(f"move the shot or {owner.words} by {most} m")
+    return ", and ".join(moves) or "give the shot more time, or the drone higher `limits`"
 
 
 def stopped_on_clock(
@@ -75,12 +87,13 @@ def stopped_on_clock(
     notes = tuple(
         f"{owner.words} would have to give way by {at_least(lack)} m" for owner, lack in trouble.lacks
     )
+    moves = [f"{owner.words} by {at_least(lack + PLAY_M)} m" for owner, lack in trouble.lacks]
     return Diagnostic(
         "M009",
         f"shot `{shot.id}` cannot be flown clear of {most[0].words}",
         labels,
         notes,
-        "move the shot, or what is in its way, by that much",
+        f"move the shot or {' and '.join(moves)}",
     )
 
 

@@ -132,7 +132,8 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: PathDeviation) -> Dia
         f"round {deviation.cause if owner is None else owner.words}",
         tuple(labels),
         (f"the largest distance is {where}",),
-        "move the path or what is in its way if the ideal matters",
+        f"move the path or {deviation.cause if owner is None else owner.words} by "
+        f"{at_least(deviation.distance)} m if the ideal matters",
     )
 
 

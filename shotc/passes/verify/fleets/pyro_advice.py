@@ -43,9 +43,9 @@ def pyro_advice(ir: TrajectoryIR, claim: Claim) -> str:
     clear = firing.clear()
     if clear > 0.0:
         remedies.append(f"write `clear: {clear:g} m` if the product and your permit allow that")
-    if moment is None and drones is None:
-        remedies.insert(0, firing.within() if claim.unit == "s" else OTHERWISE)
-    return ", or ".join(remedies)
+    if moment is None and drones is None and claim.unit == "s":
+        remedies.insert(0, firing.within())
+    return ", or ".join(remedies) or OTHERWISE
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -37,7 +37,7 @@ def no_origin(mission: MissionIR) -> Diagnostic:
         "the show file has no place on the globe: the mission has no world.origin",
         (mission.origins.key(("world",)),),
         ("Skybrush plays it without a place, and asks for the place before the flight",),
-        "add world.origin: {lat: ..., lon: ..., alt: ...}",
+        "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`",
     )
 
 

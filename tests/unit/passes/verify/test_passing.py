@@ -23,7 +23,7 @@ def together(*passes: tuple[str, float]) -> list[tuple[Any, ClosestPass]]:
     """Claims of one drone on one way: the key of the rule, and the least distance on the way."""
     made = []
     for key, least in passes:
-        claim = SimpleNamespace(subject="cam", path=("rules", "transit_clearance", key))
+        claim = SimpleNamespace(subject="cam", path=("rules", "transit_clearance", key), limit=5.0)
         made.append((claim, ClosestPass("it", ("zones", "it"), ("a", "b"), 1.0, least, 5.0, least, "")))  # type: ignore[arg-type]
     return made
 
@@ -38,6 +38,7 @@ def test_each_rule_that_a_way_breaks_is_accepted_at_the_least_distance_of_its_pa
     found = passing._diagnostic(SimpleNamespace(), passes)  # type: ignore[arg-type]
     least = passing.at_most(1.5 - PLAY_M)
     assert f"transit_clearance: {{filmed: 0.00 m, other: {least} m}}" in found.help
+    assert f"give the way {2 * (5.0 - PLAY_M / 2):.2f} m more room" in found.help
     assert found.message == "cam passes near"
     assert found.notes == ("then", *["and near; then"] * 3)
 
@@ -61,12 +62,19 @@ def test_where_a_way_begins_or_ends_nearer_less_is_needed_and_told(needs: float,
     assert ("less than 5 m" in passing._when(claim, passed)) is tapers  # type: ignore[arg-type]
 
 
-def test_a_required_clearance_is_refused_by_the_name_of_its_setting(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("moves", [False, True])
+def test_a_required_clearance_is_refused_by_the_name_of_its_setting(
+    moves: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What passes may have passed at another time; what stands does not."""
     monkeypatch.setattr(passing, "_labels", lambda *_: ())
     ((claim, passed), *_) = together(("filmed", 2.0))
-    claim.limit, claim.hard = 5.0, True
+    claim.hard = True
+    target = SimpleNamespace(path=("zones", "it"), track=object() if moves else None)
+    ir: Any = SimpleNamespace(keyframes=SimpleNamespace(mission=SimpleNamespace(targets=(target,))))
     passed = passed._replace(interval=TransitInterval(0.0, 9.0, None))
-    found = passing._refused(SimpleNamespace(), claim, passed)  # type: ignore[arg-type]
+    found = passing._refused(ir, claim, passed)
+    assert ("at another time" in found.help) == moves
     assert found.help.startswith("lower `transit_clearance.filmed` to 1.9")
     assert "on the way home" in found.message
 

@@ -268,7 +268,7 @@ def test_a_target_that_no_frame_shows_whole_has_no_promise_to_paste() -> None:
     found, off_its_place = promising(Promise(in_frame=1.0), aside)
     assert off_its_place.code == "V032"
     assert found.message == "tower is whole in 0 % of the frames of shot `half`, 100 % is promised"
-    assert found.help == "move or widen the shot where the target is cropped"
+    assert found.help == "film from farther away or through a wider lens where the target is cropped"
 
 
 def test_a_broken_promise_names_what_bent_the_path() -> None:

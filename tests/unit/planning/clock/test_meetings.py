@@ -64,5 +64,5 @@ def test_a_drone_whose_pad_is_in_the_picture_is_not_told_another_time():
     text = text.replace("home: [12, -60, 0]", "home: [0, 40, 0]").replace("pitch: 10 deg", "pitch: 0 deg")
     found = compiled_text(text, "none", "m.yaml").diagnostics
     (fault,) = (d for d in found if d.message.startswith("two is in the picture"))
-    assert "move the home of `two`, which is in the picture, too" in fault.help
+    assert "film from where `two` is" in fault.help
     assert "start shot" not in fault.help

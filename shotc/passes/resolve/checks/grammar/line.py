@@ -43,7 +43,7 @@ def check_line(
         f"the cut from `{before.id}` to `{after.id}` crosses the line of action of {who}",
         (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
         (f"relative to {what}, {sides[0]} and {sides[1]}, so directions reverse on screen",),
-        f"begin `{after.id}` on the {side_kept}, put a shot from ahead, from behind or of something else "
+        f"begin `{after.id}` on the {side_kept}, or put a shot from ahead, from behind or of something else "
         "between them, or write `allow: [crossing-the-line]` in it",
     )
 

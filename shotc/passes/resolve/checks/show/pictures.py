@@ -82,10 +82,21 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
     )
     help_ = (
         f"make it at least {at_least(factor, 1)} times as large "
-        f"(`{size_words(picture.source, larger.source)}`; `plan` may ask for more), take {floor(most)} "
-        "drones or fewer, or a smaller separation"
+        f"(`{size_words(picture.source, larger.source)}`; `plan` may ask for more), or take {floor(most)} "
+        f"drones or fewer{_nearer(fleet, factor)}"
     )
     yield Diagnostic("D018", f"{count} drones do not fit {where} this {word}", labels, notes, help_)
+
+
+def _nearer(fleet: Fleet, factor: float) -> str:
+    """Return the separation at which a shape holds a fleet that needs it ``factor`` times as large, if the
+    bodies of its drones allow it.
+    """
+    apart = fleet.apart
+    if apart.horizontal != apart.vertical or apart.margin > 0.0:
+        return ""
+    least = down(apart.horizontal / factor)
+    return f", or write `separation: {least:.2f}`" if least >= 2.0 * fleet.radius else ""
 
 
 def _counted(mission: MissionIR, fleet: Fleet) -> Label:
