@@ -7,27 +7,42 @@ and its test fails until the choice is made again.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from typing import NamedTuple
 
 from tests.support.meshes import ply
 from tests.support.remedies.with_files import BARN, built, posts
 from tests.support.scene_missions import house
 
+Written = str | Callable[[float], str]
+NUMBER = re.compile(r"(?<![\w`.])\d+(?:\.\d+)?(?= )")
+
 
 class Hand(NamedTuple):
     """One alternative of a help, done by hand.
 
-    said  : the alternative, as ``apply.alternatives`` gives it
-    edits : pairs of what stands in the example and what is written for it, in order
+    said  : the alternative, as ``apply.alternatives`` gives it, with `#` for a number that plans decide
+    edits : pairs of what stands in the example and what is written for it, in order; where the alternative
+        has such numbers, a function of the first of them
     """
 
     code: str
     said: str
-    edits: tuple[tuple[str, str], ...]
+    edits: tuple[tuple[str, Written], ...]
+
+    def tells(self, code: str, said: str) -> bool:
+        """Tell whether it does this alternative of a help."""
+        return code == self.code and self.said in (said, unnumbered(said))
 
 
-def hand(code: str, said: str, *edits: tuple[str, str]) -> Hand:
+def hand(code: str, said: str, *edits: tuple[str, Written]) -> Hand:
     return Hand(code, said, edits)
+
+
+def unnumbered(said: str) -> str:
+    """Return an alternative with `#` for each number."""
+    return NUMBER.sub("#", said)
 
 
 FILES = {
@@ -301,9 +316,9 @@ HANDS = [
 ]
 
 
-def edited(text: str, hand: Hand) -> str:
-    """Return a mission with the edits of a choice; each has to be found."""
+def edited(text: str, hand: Hand, said: str) -> str:
+    """Return a mission with the edits of a choice for an alternative; each has to be found."""
     for old, new in hand.edits:
         assert old in text, f"{hand.code}: the example no longer has {old!r}"
-        text = text.replace(old, new, 1)
+        text = text.replace(old, new if isinstance(new, str) else new(float(NUMBER.findall(said)[0])), 1)
     return text

@@ -9,7 +9,11 @@ WAYS = "keyframes: [{at: [0, -24, 6], look_at: mast}, {at: [-30, 0, 6], look_at:
 PLANNED_HANDS = [
     hand("N016", "name the `target` of the keyframe", ("box: [-0.1, -0.6, 0.1, 0.4]", "target: tower")),
     hand("K014", "add a drone", ("drones:\n", "drones:\n  cam2: {model: x500, home: [20, -60, 0]}\n")),
-    hand("M008", "move the shot or zone `tree` by 3.93 m", ("center: [30, 8]", "center: [30, 11.93]")),
+    hand(
+        "M008",
+        "move the shot or zone `tree` by # m",
+        ("center: [30, 8]", lambda m: f"center: [30, {8 + m:.2f}]"),
+    ),
     hand(
         "M011",
         "put `home` where target `runner` is not between it and the shots",
@@ -31,8 +35,8 @@ PLANNED_HANDS = [
     ),
     hand(
         "M013",
-        "put `home` where the axis of `runner` comes no nearer than 2.00 m",
-        ("home: [45, 0, 0]", "home: [45, -2, 0]"),
+        "put `home` where the axis of `runner` comes no nearer than # m",
+        ("home: [45, 0, 0]", lambda m: f"home: [45, {-m:.2f}, 0]"),
     ),
     hand(
         "M038",
@@ -47,8 +51,8 @@ PLANNED_HANDS = [
     ),
     hand(
         "Q006",
-        "move the path or zone `pole` by 2.05 m if the ideal matters",
-        ("[30.6, 40.6]", "[32.05, 42.05]"),
+        "move the path or zone `pole` by # m if the ideal matters",
+        ("[30.6, 40.6]", lambda m: f"[{30.6 + m:.2f}, {40.6 + m:.2f}]"),
     ),
     hand(
         "Q007",
@@ -56,7 +60,11 @@ PLANNED_HANDS = [
         ("      - {at: [5, 36, 8]", "      - {at: [46, 40, 8], look_at: lamp}\n      - {at: [5, 36, 8]"),
     ),
     hand("Q007", "widen gimbal.pitch", ("30 deg], yaw", "70 deg], yaw")),
-    hand("Q009", "pass at least 1.9 m to one side of it", ("at: [25.5, 7.5, 1]", "at: [25.2, 9.4, 1]")),
+    hand(
+        "Q009",
+        "pass at least # m to one side of it",
+        ("at: [25.5, 7.5, 1]", lambda m: f"at: [{25.5 - 0.16 * m:.2f}, {7.5 + m:.2f}, 1]"),
+    ),
     hand(
         "Q009",
         "give `heading` and `pitch`",
@@ -65,7 +73,11 @@ PLANNED_HANDS = [
         ("target: lamp\n    composition: center\n    keyframes:", "keyframes:"),
     ),
     hand("T003", "shorten what comes before", ("home: [0, -30, 0]", "home: [-18, -22, 0]")),
-    hand("T004", "shorten the mission by 10.60 s, cut it in two", ("start: 105 s", "start: 94 s")),
+    hand(
+        "T004",
+        "shorten the mission by # s, cut it in two",
+        ("start: 105 s", lambda s: f"start: {105 - s:.2f} s"),
+    ),
     hand(
         "T005",
         "a keyframe elsewhere",
@@ -78,20 +90,28 @@ PLANNED_HANDS = [
         ("home: [0, -30, 0]", "home: [0, -60, 0]"),
     ),
     hand("V020", "turn the camera slower there", ("{at: [24, -20, 6]", "{at: [-23.9, -20, 6]")),
-    hand("V022", "bring them 2.00 m farther apart; then plan again", ("at: [1, -30, 9]", "at: [3, -30, 9]")),
+    hand(
+        "V022",
+        "bring them # m farther apart; then plan again",
+        ("at: [1, -30, 9]", lambda m: f"at: [{1 + m:.2f}, -30, 9]"),
+    ),
     hand("V028", "film from another side or from higher up there", ("at: [0, -24, 6]", "at: [-24, 0, 6]")),
     hand(
         "V034",
-        "give the way 3.20 m more room",
-        ("[-24, 0, 30]", "[-25.6, 0, 30]"),
-        ("[24, 0, 30]", "[25.6, 0, 30]"),
+        "give the way # m more room",
+        ("[-24, 0, 30]", lambda m: f"[{-24 - m / 2:.2f}, 0, 30]"),
+        ("[24, 0, 30]", lambda m: f"[{24 + m / 2:.2f}, 0, 30]"),
     ),
     hand(
         "V050",
         "film from another side or from higher up, so that nothing stands on the line of sight",
         ("at: [0, -24, 6]", "at: [-24, 0, 6]"),
     ),
-    hand("V035", "give the way 1.43 m more room; then plan again", ("at: [-15, 3, 3]", "at: [-15, 4.43, 3]")),
+    hand(
+        "V035",
+        "give the way # m more room; then plan again",
+        ("at: [-15, 3, 3]", lambda m: f"at: [-15, {3 + m:.2f}, 3]"),
+    ),
     hand(
         "E101",
         "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`",
@@ -121,12 +141,12 @@ PLANNED_HANDS = [
         for code in ("V025", "V033")
         for said, edits in (
             (
-                "film from where `two` is 24.3 m higher in the picture",
-                (("at: [0, 30, 9]", "at: [0, 30, 33.3]"),),
+                "film from where `two` is # m higher in the picture",
+                (("at: [0, 30, 9]", lambda m: f"at: [0, 30, {9 + m:.2f}]"),),
             ),
             (
-                "film from where `one` is 24.3 m higher in the picture",
-                (("at: [0, -30, 9]", "at: [0, -30, 33.3]"),),
+                "film from where `one` is # m higher in the picture",
+                (("at: [0, -30, 9]", lambda m: f"at: [0, -30, {9 + m:.2f}]"),),
             ),
         )
     ),

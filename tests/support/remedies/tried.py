@@ -52,7 +52,7 @@ def tried_all(text: str, judged: Judge, hands: Sequence[Hand]) -> Tried:
         assert fault.help, f"{fault.code} has no help"
         missions = {remedy.text: remedy.missions for remedy in remedies(text, fault)}
         for said in alternatives(fault.help):
-            chosen = [edited(text, hand) for hand in hands if (hand.code, hand.said) == (fault.code, said)]
+            chosen = [edited(text, hand, said) for hand in hands if hand.tells(fault.code, said)]
             ways = chosen or missions.get(said, ())
             if not ways:
                 untried.append(said)
