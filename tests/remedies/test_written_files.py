@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from functools import partial
 
 import pytest
 
-from shotc.diag.model import Severity
-from shotc.diag.registry import severity_of
 from tests.remedies.test_planned import planned
+from tests.support.remedies.done import Done, assert_helps
 
 pytestmark = pytest.mark.slow
-
-
-class Case(NamedTuple):
-    """A mission whose files raise a code, what the help says, and the edits that do it."""
-
-    code: str
-    mission: str
-    said: str
-    edits: tuple[tuple[str, str], ...]
-
 
 HEAD = """\
 shotc: 1
@@ -51,28 +40,19 @@ NOWHERE = ("world: {origin: {lat: 47.3769, lon: 8.5417, alt: 408}}\n", "")
 LOST = (SHOW.replace(*NOWHERE), (("rules:", NOWHERE[0] + "rules:"),))
 ON_MAP = "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`"
 CASES = [
-    Case("E110", SHOW.replace("EMIT", "mavlink"), "ask for `skyc` in `output.emit`", (("mavlink", "skyc"),)),
-    Case("E111", LOST[0].replace("EMIT", "skyc"), ON_MAP, LOST[1]),
-    Case("E130", LOST[0].replace("EMIT", "site"), ON_MAP, LOST[1]),
-    Case("E130", LOST[0].replace("EMIT", "site"), "take `site` out of `emit`", (("[site]", "[csv]"),)),
-    Case("E117", TURN, "let the drone move while the camera turns", (
+    Done("E110", SHOW.replace("EMIT", "mavlink"), "ask for `skyc` in `output.emit`", (("mavlink", "skyc"),)),
+    Done("E111", LOST[0].replace("EMIT", "skyc"), ON_MAP, LOST[1]),
+    Done("E130", LOST[0].replace("EMIT", "site"), ON_MAP, LOST[1]),
+    Done("E130", LOST[0].replace("EMIT", "site"), "take `site` out of `emit`", (("[site]", "[csv]"),)),
+    Done("E117", TURN, "let the drone move while the camera turns", (
         ("     {at: [0, -25, 16]", "     {at: [30, -40, 16]"),)),
-    Case("E120", PAIR, "air of its own by zones or heights", (
+    Done("E120", PAIR, "air of its own by zones or heights", (
         ("at: [0, -24, 16]", "at: [30, -40, 30]"), ("home: [10, -40, 0]", "home: [30, -50, 0]"))),
-    Case("E120", PAIR, "film with one drone", (("drone: two", "drone: one"),)),
+    Done("E120", PAIR, "film with one drone", (("drone: two", "drone: one"),)),
 ]  # fmt: skip
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("case", CASES, ids=[f"{case.code}-{i}" for i, case in enumerate(CASES)])
-def test_what_a_help_proposes_does_when_it_is_written(case: Case) -> None:
-    before = planned(case.mission, "none")
-    (fault,) = (d for d in before if d.code == case.code)
-    assert case.said in (fault.help or "")
-    text = case.mission
-    for old, new in case.edits:
-        assert old in text
-        text = text.replace(old, new, 1)
-    after = planned(text, "none")
-    assert case.code not in {d.code for d in after}
-    assert [d for d in after if severity_of(d) is Severity.ERROR] == []
+def test_what_a_help_proposes_does_when_it_is_written(case: Done) -> None:
+    assert_helps(case, partial(planned, refiner="none"))

@@ -233,7 +233,9 @@ def _mostly_hidden(claim: Claim, claims: tuple[Claim, ...]) -> bool:
 
 _ASIDE = "film from another side or from higher up, so that nothing stands on the line of sight"
 _LOST_HELP = {
-    "V030": "move or widen the shot there, or write `require: {in_frame: ...}` to make it an error",
+    "V030": (
+        "film from farther away or through a wider lens there; `require: {in_frame: ...}` makes it an error"
+    ),
     "V031": _ASIDE,
     "V050": f"{_ASIDE}, or write `allow: [hidden-subject]` in the shot to accept it",
 }

@@ -123,6 +123,7 @@ def shaking() -> str:
 BARN: dict[str, str | int] = {"name": "Barn", "building": "yes", "height": 4}
 ONE, OTHER = BARN | {"@id": "way/1"}, BARN | {"@id": "way/2"}
 BARE: dict[str, str | int] = {"building": "yes"}
+CLOSE = "{at: [20, 0], radius: 1, height: 4}"
 BUILDINGS = "buildings: {file: h.geojson}"
 PLY, MODEL = ply(house()).decode(), "model: {files: house.ply, center: [0, 0, 40]"
 GAP = "".join(f"{t},{2 * t},0,0.9\n" for t in (*range(20), *range(40, 70)))
@@ -150,6 +151,7 @@ CASES = [
     beside("G048", BUILDINGS, built((0, BARN)), statue="{building: Bern}"),
     beside("G049", BUILDINGS, built((0, ONE), (40, OTHER)), statue="{building: Barn}"),
     beside("G046", "terrain: {file: hill.csv}", posts(reach=50), posts()),
+    beside("G025", "terrain: {file: hill.csv}", posts(reach=30), posts(), statue=CLOSE),
     beside("N009", "terrain: {file: hill.csv}", posts("x,y"), posts("x,y,z")),
     beside("N009", "terrain: {file: hill.csv}", posts().replace(b",", b";"), posts()),
     after("M022", f"t,x,y,z\n{GAP}", "t,x,y,z\n" + "".join(f"{t},{2 * t},0,0.9\n" for t in range(70))),
