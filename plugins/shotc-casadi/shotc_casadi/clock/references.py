@@ -189,8 +189,13 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     subject, or as far as the guide is, if that is farther. There is no limit outside the film, and none if
     the shot promises how its subject appears, shows several subjects, or has keyframes, because nobody asked
     for a place between keyframes. The limit is less by how far the ideal bends between two of the times.
+    A camera that the author put in one place stays as near to it as the guide, whatever the shot promises.
     """
     leg, promise, n = subject.leg, subject.placed.shot.promise, len(t) - 1
+    guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER_M
+    film = filmed_at(leg, t)
+    if _stands_in_place(subject, ideal[film]):
+        return np.where(film, guide, np.inf)
     promised = promise.in_frame is not None or promise.screen_error is not None
     if promised or len(subject.framed) > 1 or subject.camera_task.keyed is not None:
         return np.full(n + 1, np.inf)
@@ -206,8 +211,6 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
         .reshape(LOOKS_PER_STAGE, n)
         .min(axis=0)
     )
-    guide = np.linalg.norm(leg.curve(t)[:, :3] - ideal, axis=1) + INNER_M
-    film = filmed_at(leg, t)
     nearest = np.minimum(np.append(stages, np.inf), np.append(np.inf, stages))
     return np.where(film, np.maximum(nearest, guide), np.inf)
 
@@ -215,6 +218,12 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
 def filmed_at(leg: ClockLeg, t: Array) -> Mask:
     """Return which mission times (M,) are in the film, its ends included, shape (M,)."""
     return np.asarray((t >= leg.start - AT_END_S) & (t <= leg.end + AT_END_S))
+
+
+def _stands_in_place(subject: ClockSubject, filmed: Array) -> bool:
+    """Return whether the author put the camera in one place; filmed : its ideal places in the film."""
+    ideal = subject.placed.shot.ideal
+    return ideal is not None and ideal.placed and not np.ptp(filmed, axis=0).any()
 
 
 def _ideal_at(subject: ClockSubject, t: Array) -> Array:
