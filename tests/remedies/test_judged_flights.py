@@ -43,7 +43,20 @@ def faster(speed: float) -> bytes:
     return litchi_file(AROUND, speed=speed)
 
 
+YARD = "  yard: {keep: in, box: {center: [0, 0, 25], size: [70, 200, 60]}}"
+MAST = "targets: {mast: {at: [-40, 0, 15], radius: 1, height: 30}}\ndrones:"
+
+
+def west(metres: float) -> bytes:
+    """Return a flight so far west of the hut there and back."""
+    return litchi_file([HOME, (-metres, -40.0, 20.0), (-metres, 40.0, 20.0), (-metres, -40.0, 20.0), HOME])
+
+
 CASES = [
+    Case("V008", r"keep ([\d.]+) m farther inside there", lambda less: west(40.0 - less),
+        MISSION.replace("drones:", f"  {YARD}\ndrones:", 1)),
+    Case("V010", r"keep ([\d.]+) m farther away there", lambda more: west(41.5 + more),
+        MISSION.replace("drones:", MAST, 1)),
     Case("V001", r"fly slower there, by ([\d.]+) m/s at least", lambda less: faster(12.0 - less)),
     Case("V007", r"keep ([\d.]+) m farther away there", beside),
     Case("V009", r"fly ([\d.]+) m higher there", lambda more: above(0.9 + more)),
