@@ -28,7 +28,7 @@ SMALLEST_SHARE = 0.01
 _DIGITS = 3
 _INSTEAD = {
     "V019": "film from farther away or through a wider lens where the target is cropped",
-    "V020": "turn the camera slower there",
+    "V020": "turn the camera less there",
     "V021": "change the distance or the field of view there",
     "V028": "film from another side or from higher up there",
     "V029": "begin or end the shot elsewhere",

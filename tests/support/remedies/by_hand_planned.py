@@ -17,7 +17,7 @@ PLANNED_HANDS = [
     hand(
         "M011",
         "put `home` where target `runner` is not between it and the shots",
-        ("home: [-12, 0, 0]", "home: [20, 0, 0]"),
+        ("home: [-12, 0, 0]", "home: [60, 0, 0]"),
     ),
     hand(
         "M015",
@@ -89,7 +89,7 @@ PLANNED_HANDS = [
         ("at: [30, -12, 4]", "at: [30, -60, 8]"),
         ("home: [0, -30, 0]", "home: [0, -60, 0]"),
     ),
-    hand("V020", "turn the camera slower there", ("{at: [24, -20, 6]", "{at: [-23.9, -20, 6]")),
+    hand("V020", "turn the camera less there", ("{at: [24, -20, 6]", "{at: [-48, -40, 6]")),
     hand(
         "V022",
         "bring them # m farther apart; then plan again",

@@ -259,7 +259,7 @@ def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
     assert found.message == (
         "tower is 0.07339 of half a frame off its place on screen in shot `half`, 0.05 is promised at most"
     )
-    assert found.help == "promise `screen_error: 0.0734`, or turn the camera slower there"
+    assert found.help == "promise `screen_error: 0.0734`, or turn the camera less there"
     assert promising(Promise(screen_error=0.0734), aside) == []
 
 
