@@ -145,8 +145,9 @@ CODES: tuple[CodeInfo, ...] = (
         "cannot-keep-up",
         "a shot has to be flown faster than its drone flies",
         "To keep its place beside a target the camera has to go as fast as that place does, in the wind. Where that is more than "
-        "the drone's speed over seconds, no plan can keep it. The help names what of the shot would "
-        "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
+        "the drone's speed over seconds, no plan can keep it. Only a place that swings round as its target turns a corner may "
+        "be faster, by at most 40 % of its distance from the target: the camera then leads it by a half of that and follows "
+        "it by the other. The help names what of the shot would let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
         "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast. A shot without a `start` is judged "
         "by when what it comes after ends; where that is not known `plan` reports it.",
         ("times: [0, 40]", "times: [11, 17]"),

@@ -3,22 +3,27 @@
 A shot without a written `start` is checked if the end of the shot before it is known, or if its start does
 not matter; otherwise planning checks it. A remedy is tried before it is proposed: the ideal is evaluated
 again with the new number.
+
+A place that swings round as its target turns a corner is too fast for a moment only. That is no fault if the
+drone can stay near it: it leads its place before the corner, and follows it after.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from math import dist, hypot, inf
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
-from shotc.geom.vec import Vec3
+from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.begins import first_start, known_start
 from shotc.ir.drone import Drone
 from shotc.ir.framed import course_of
 from shotc.ir.ideal import CATCH_UP_RATIO, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.preference import MOST_MOVED
 from shotc.rounding import at_most, down, up
 
 WINDOW_S = 2.0  # seconds over which the mean speed is measured
@@ -39,10 +44,10 @@ LEVEL = ("distance", "radius", "offset")
 
 
 def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield the fault of an ideal that is faster than the drone over a window, for every possible start."""
+    """Yield the fault of an ideal that is too fast for the drone, for every possible start."""
     drone, starts = mission.drone(shot.drone), _starts(mission, shot)
     limit = drone.limits.speed
-    if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + SPEED_ROUNDING_SHARE) for t in starts):
+    if not starts or any(_follows(mission, shot, t, limit * (1 + SPEED_ROUNDING_SHARE)) for t in starts):
         return
     worst, when = _fastest(mission, shot, starts[0])
     through = " through the air" if any(drone.limits.wind) else ""
@@ -158,8 +163,38 @@ def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float
     return worst, -late
 
 
+def _follows(mission: MissionIR, shot: Shot, start: float, limit: float) -> bool:
+    """Return whether a drone keeps up with the ideal over every window, or stays near it where it does not.
+
+    It stays near if the target itself is slow enough, and half of the distance that the drone loses where its
+    place swings round is at most the share of the distance to the target by which a preference may move a
+    camera. It can lose the one half before its place and the other behind.
+    """
+    if _fastest(mission, shot, start)[0] <= limit:
+        return True
+    ideal, duration = shot.ideal, shot.timing.duration or 0.0
+    if ideal is None or ideal.target is None or ideal.frame != "heading" or ideal.framed:
+        return False
+    target, step = mission.target(ideal.target), duration / IDEAL_SAMPLES
+    times = [start + step * i for i in range(IDEAL_SAMPLES + 1)]
+    wind = mission.drone(shot.drone).limits.wind
+    centres, places = [target.at(t) for t in times], [ideal_place(mission, shot, start, t) for t in times]
+    if max(_through_air(centres, wind, step)) > limit * step:
+        return False
+    lost = most = 0.0
+    for flown in _through_air(places, wind, step):
+        lost = max(0.0, lost + flown - limit * step)
+        most = max(most, lost)
+    return most / 2 <= MOST_MOVED * min(dist(p, c) for p, c in zip(places, centres, strict=True))
+
+
+def _through_air(course: list[Vec3], wind: Vec2, step: float) -> list[float]:
+    """Return the horizontal way through the air between the places of a course, a step apart, metres."""
+    return [hypot(b[0] - a[0] - wind[0] * step, b[1] - a[1] - wind[1] * step) for a, b in pairwise(course)]
+
+
 def _keeps_up(mission: MissionIR, shot: Shot, limit: float) -> bool:
-    return all(_fastest(mission, shot, t)[0] <= limit for t in _starts(mission, shot))
+    return all(_follows(mission, shot, t, limit) for t in _starts(mission, shot))
 
 
 def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
