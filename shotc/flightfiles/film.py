@@ -117,7 +117,9 @@ def _claims(
 
 def _of_keyframes(stated: Claim) -> bool:
     """Return whether a claim is about references, which are made here and are not in the file."""
-    return stated.constraint.startswith(("frames without", "reference off", "keyframes without"))
+    return stated.constraint.startswith(
+        ("frames without", "frames of another", "reference off", "keyframes without")
+    )
 
 
 def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None = None) -> FileClaim:

@@ -26,6 +26,9 @@ MOST_TICKS = 20_000_000
 MOST_CORNERS = 1000
 """Most corners of a zone."""
 
+FLIGHT_POINTS = 6
+"""Control points of a piece of a flight, which is a quintic."""
+
 UNIT_TOLERANCE = 1e-6
 """Tolerance of a unit vector's length, and of the position of a group's part against its body, metres."""
 
@@ -226,6 +229,9 @@ def _track(track: DroneTrajectory, mission: MissionIR, path: str) -> Iterator[Fa
             yield f"{path}.framing[{i}].reference", "does not have the two channels u and v"
     if track.curve.ctrl.shape[2] != len(CHANNELS):
         yield f"{path}.curve", f"has {track.curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
+    if track.curve.ctrl.shape[1] != FLIGHT_POINTS:
+        points = track.curve.ctrl.shape[1]
+        yield f"{path}.curve", f"has {points} control points a piece, not {FLIGHT_POINTS}"
     times = chain((p.end for p in track.phases), (track.curve.end,))
     if max(times) * mission.rate > MOST_TICKS:
         yield f"{path}.curve", f"lasts {track.curve.end:g} s: too many samples at {mission.rate:g} Hz"

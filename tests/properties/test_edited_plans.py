@@ -13,12 +13,18 @@ from typing import Any
 import pytest
 
 from shotc import api
-from tests.support.kinds_plan import kinds_plan
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from tests.support.kinds_plan import MISSION, kinds_plan
+from tests.support.moved_plans import excursion
 from tests.support.resealed_plans import Document, resealed
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("kinds-plan")]
 
 FEW, MANY = 10, 2000
+ROUND, RISE = (
+    MISSION[MISSION.index(first) : MISSION.index(then)]
+    for first, then in (("  - {id: round", "  - {id: rise"), ("  - {id: rise", "  - id: look"))
+)
 CHANGES = (
     ("sweep: -180 deg", "sweep: -20 deg"),
     ("sweep: -180 deg", "sweep: 180 deg"),
@@ -29,6 +35,8 @@ CHANGES = (
     ("heading: 200 deg", "heading: 100 deg"),
     ("side: left", "side: right"),
     ("distance: 8", "distance: 5"),
+    ("home: [0, -60, 0]}", "home: [0, -60, 0], body: free}"),
+    (ROUND + RISE, RISE + ROUND),
 )
 
 
@@ -102,7 +110,53 @@ def of_a_time(chance: random.Random, document: Document) -> None:
         flown["keyframes"].remove(chance.choice(flown["keyframes"]))
 
 
-EDITS = (of_a_value, of_a_value, of_a_value, of_the_text, of_the_flight, of_a_time)
+def of_the_motion(chance: random.Random, document: Document) -> None:
+    """Lead a drone, its nose, its lens or a camera that is held to a place aside for a part of a shot."""
+    drone, shot, channels = chance.choice(
+        [
+            (0, "round", (0, 1, 2, HFOV, BODY_YAW)),
+            (0, "rise", (0, 1, 2, HFOV, BODY_YAW)),
+            (0, "look", (0, 1, 2, HFOV, BODY_YAW)),
+            (1, "side", (0, 1, 2, HFOV, BODY_YAW, CAM_YAW, CAM_PITCH)),
+        ]
+    )
+    phase = next(p for p in document["drones"][drone]["phases"] if p["shot"] == shot)
+    length = phase["end"] - phase["start"]
+    start = phase["start"] + chance.uniform(0.0, 0.3) * length
+    channel = chance.choice(channels)
+    least = {HFOV: 0.05, BODY_YAW: 0.05, CAM_YAW: 0.8, CAM_PITCH: 0.5}.get(channel, 15.0)
+    by = chance.choice([-1.0, 1.0]) * least * chance.uniform(1.0, 1.5)
+    excursion(document, drone, channel, (start, start + chance.uniform(0.5, 0.7) * length), by)
+
+
+def of_the_picture(chance: random.Random, document: Document) -> None:
+    """Frame less, more or something else than the mission does in a shot."""
+    flown = chance.choice(document["drones"])
+    span = chance.choice(flown["framing"])
+    phase = next(p for p in flown["phases"] if p["shot"] == span["shot"])
+    kind = chance.randrange(4)
+    if kind == 0:
+        flown["framing"].remove(span)
+    elif kind == 1:
+        span["target"] = "runner" if span["target"] == "tower" else "tower"
+    elif kind == 2:
+        span["start"] += 0.6 * (span["end"] - span["start"])
+    else:
+        flown["framing"].append(
+            {
+                "shot": span["shot"],
+                "target": "runner" if span["target"] == "tower" else "tower",
+                "start": phase["start"],
+                "end": phase["end"],
+                "reference": None,
+            }
+        )
+
+
+EDITS = (
+    *(of_a_value, of_a_value, of_a_value, of_the_text, of_the_flight, of_a_time),
+    *(of_the_motion, of_the_picture),
+)
 
 
 def refused(seed: int) -> bool:

@@ -23,6 +23,7 @@ from shotc.passes.verify.course import course
 from shotc.passes.verify.energy import energy
 from shotc.passes.verify.filmed_pictures import not_standing
 from shotc.passes.verify.framing import filmed, framing
+from shotc.passes.verify.looking import looking
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.pair import from_fleets, separation
@@ -85,6 +86,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *ahead(flight),
             *shots(flight, ir),
             *course(flight, ir),
+            *looking(flight, ir),
         ]
         for shot in filmed(flight, ir):
             claims += [*framing(flight, shot), *sharp(flight, shot)]

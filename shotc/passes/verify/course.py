@@ -1,4 +1,4 @@
-"""Check that a shot is flown as its kind asks: along its path, from start to end, with its camera angles.
+"""Check that a shot is flown as its kind asks: along its path, from start to end.
 
 Keyframes that a kind generates are an ideal. Planning may leave them where an obstacle is in the way, or for
 the picture. The plan states how far, and no more is allowed; where nothing is near its ends they bind.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
-from math import inf, pi
+from math import inf
 
 import numpy as np
 
@@ -17,11 +17,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
 from shotc.geom.solids import distance, signed_distance
-from shotc.geom.vec import wrapped
-from shotc.ir.ahead import looks_along
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
-from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.preference import PICTURE_SHARE
 from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S
@@ -48,21 +45,9 @@ PLACES_PER_CHORD = 50
 AT_ENDS_M = 0.5
 """Metres from its ends within which a generated path begins and ends, where these are free."""
 
-LENS_RAD = 1e-3
-"""Tolerance of the field of view at a keyframe, radians."""
-
-TURNED_RAD = 0.2
-"""Tolerance of the direction at a keyframe of a camera that frames nothing, radians."""
-
-BESIDE_S = 0.5
-"""Seconds before and after a keyframe over which the drone's course is measured."""
-
-AROUND_RAD = pi / 2
-"""Tolerance of a turn, radians; a whole turn more or less is another shot."""
-
 
 def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Yield claims that this drone's shots with keyframes are flown in order, on their paths, as aimed."""
+    """Yield claims that this drone's shots with keyframes are flown in order and on their paths."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         if placed.shot.drone != flight.drone.name or len(flown) != 1 or placed.shot.ideal is not None:
@@ -72,7 +57,6 @@ def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
         if len(times) == len(placed.keyframes) and all(flown[0].start <= t <= flown[0].end for t in times):
             t = np.array(_times(flight, placed))
             yield from _along(flight, placed, t, ir)
-            yield from _looking(flight, placed, t)
 
 
 def _allowance(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, expected: ExpectedPlaces) -> float:
@@ -212,51 +196,3 @@ def _is_free(flight: JudgedFlight, keyframe: PlacedKeyframe) -> bool:
         return False
     standing = [target for target in mission.targets if target.track is None]
     return all(distance(target.solid, at) >= rules.target_clearance + body for target in standing)
-
-
-def _looking(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
-    """Yield claims on the lens, the direction and the turns at a shot's keyframes."""
-    keyframes, shot = placed.keyframes, placed.shot
-    pose = flight.track.curve(t)
-    lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
-    if flight.drone.zooms:
-        lens = np.where([k.asks_for_lens(flight.drone.hfov) for k in keyframes], lens, 0.0)
-    limit = Limit("lens off its keyframes", LENS_RAD, "rad", shot.path, shot=shot.id)
-    yield _largest(flight, limit, lens, t)
-    unframed = np.array([k.reference is None for k in keyframes])
-    yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])
-    if flight.mission.rules.look_ahead is not None and looks_along(shot):
-        yaw = _off_course(flight, (yaw, t), flight.mission.rules.look_ahead, (t[0], t[-1]))
-    pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
-    off_aim = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
-    limit = replace(limit, constraint="direction off its keyframes", value=TURNED_RAD)
-    yield _largest(flight, limit, off_aim, t)
-    turns = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
-    turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - turns)
-    limit = replace(limit, constraint="turn off its keyframes", value=AROUND_RAD)
-    yield _largest(flight, limit, np.nan_to_num(turned), t)
-
-
-def _off_course(
-    flight: JudgedFlight, at: tuple[Array, Array], half_angle: float, span: tuple[float, float]
-) -> Array:
-    """Return how far a camera that looks along its path is outside the cone about its course, rad.
-
-    At a keyframe the course is measured from shortly before it to shortly after it, because the drone may
-    rest there.
-
-    at : errors against the headings of its keyframes, and their times
-    span : of the shot, seconds
-    """
-    off, t = at
-    curve = flight.track.curve
-    before, after = (np.clip(t + d, *span) for d in (-BESIDE_S, BESIDE_S))
-    direction = curve(after)[:, :2] - curve(before)[:, :2]
-    off_course = wrapped(curve(t)[:, CAM_YAW] - np.arctan2(direction[:, 1], direction[:, 0]))
-    least = np.minimum(np.abs(off), np.abs(off_course))
-    return np.asarray(np.maximum(least - half_angle, 0.0))
-
-
-def _largest(flight: JudgedFlight, limit: Limit, value: Array, t: Array) -> Claim:
-    k = int(value.argmax())
-    return claim(flight, limit, WorstValue(float(value[k]), float(t[k]), "exact"))

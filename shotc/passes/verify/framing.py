@@ -16,18 +16,19 @@ from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import clock, framed, projected, references, share_of_frames, subjects
+from shotc.ir.sampling import clock, projected, references, share_of_frames, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.close import errors_close, margins_close
-from shotc.passes.verify.reference import held, reference_framing
+from shotc.passes.verify.pictured import asked
+from shotc.passes.verify.reference import reference_framing
 from shotc.passes.verify.visible import visible
 from shotc.planning.framing.moments import placed_at
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FramingSamples:
-    """The samples of one target in one shot, at the times at which the shot frames it.
+    """The samples of one target in one shot, at the times at which the mission has it framed.
 
     times : ticks of the output clock and the ends of what is framed, shape (M,)
     counted : those of them that shares count: ticks and the ends of the shot, shape (M,)
@@ -75,15 +76,14 @@ def framing(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
 
 
 def view_of(flight: JudgedFlight, placed: PlacedShot, target: str, phase: Phase) -> FramingSamples | None:
-    """Return the samples of a target in a shot's phase; None where the shot never frames it."""
+    """Return the samples of a target in a shot's phase; None where the mission never asks for it there."""
     shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
     spans = [f for f in flight.track.framing if f.shot == shot.id and f.target == target]
     ends = [t for f in spans for t in (f.start, f.end)]
     times = np.unique(np.concatenate([ticks, np.array(ends)]))
     times = times[(times >= phase.start) & (times <= phase.end)]
-    times = times[framed(flight.track, shot.id, target, times)]
-    times = times[held(flight, placed, phase, target, times)]
+    times = times[asked(flight, placed, phase, target, times)]
     if not len(times):
         return None
     frames = projected(flight.mission, flight.track, target, times)

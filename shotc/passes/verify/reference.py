@@ -6,109 +6,81 @@ its reference.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import pairwise
-from math import dist
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
-from shotc.ir.promise import Promise
-from shotc.ir.sampling import framed, references, ticks_inside
+from shotc.ir.sampling import framed, references, ticks, ticks_inside
 from shotc.ir.tolerances import OFF_LINE_HALF_FRAMES
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
-
-SAME_PLACE_M = 0.01
-"""Distance of two keyframes up to which the camera turns on the spot, metres."""
-
-Mask = NDArray[np.bool_]
-
-
-class _KeyframedSpan(NamedTuple):
-    """An interval between two keyframes of one target, seconds, without the hold before it."""
-
-    start: float
-    end: float
-    before: PlacedKeyframe
-    after: PlacedKeyframe
-
-
-class _Watched(NamedTuple):
-    """Times, shape (M,), seconds, and the targets of which one is framed then."""
-
-    times: Array
-    targets: tuple[str | None, ...]
+from shotc.passes.verify.pictured import KeyframedSpan, frames_beside, spans_of, ways_unframed
 
 
 def reference_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
-    """Yield claims that targets at keyframes and between them are framed, with the keyframes' references.
+    """Yield claims that targets at keyframes and between them are framed, with the keyframes' references, and
+    nothing else.
 
-    Between two references the wanted one lies on the straight line from one to the other. The first claim is
-    always hard: other claims judge the picture of the target only while the target is framed. The second one
-    is hard where the shot promises something, else soft.
+    Between two references the wanted one lies on the straight line from one to the other. The claims are hard
+    even where the shot promises nothing: the tables of a plan state what it frames, and where.
     """
-    shot, hard = placed.shot, placed.shot.promise != Promise()
+    shot = placed.shot
     if shot.ideal is not None and not is_keyed(shot):
-        yield from _all_along(flight, placed, phase, hard=hard)
+        yield from _all_along(flight, placed, phase)
+    else:
+        yield from _at_and_between(flight, placed, phase)
+    beside, first = frames_beside(flight, placed, phase)
+    if any(f.shot == shot.id for f in flight.track.framing):
+        limit = Limit("frames of another target", 0.0, "", shot.path, shot=shot.id)
+        yield claim(flight, limit, WorstValue(beside, first, "sampled"))
+
+
+def _at_and_between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+    shot, spans = placed.shot, spans_of(flight, placed, phase)
+    if spans is None:
+        met = {k.index for k in flight.track.keyframes if k.shot == shot.id}
+        missing = float(len(set(range(len(placed.keyframes))) - met))
+        limit = Limit("keyframes without a time", 0.0, "", shot.path, shot=shot.id)
+        yield claim(flight, limit, WorstValue(missing, None, "exact"))
         return
-    times = {k.index: k.time for k in flight.track.keyframes if k.shot == shot.id}
-    if len(times) < len(placed.keyframes):
-        limit = Limit("keyframes without a time", 0.0, "", shot.path, hard=hard, shot=shot.id)
-        yield claim(flight, limit, WorstValue(float(len(placed.keyframes) - len(times)), None, "exact"))
-        return
-    legs = list(_sampled(flight, _legs(placed, times, phase)))
-    shown = [
-        *(_Watched(leg.times, (leg.before.target,)) for leg in legs),
-        *_at_keyframes(placed, times, phase),
-        *_in_changes(flight, placed, times),
+    legs = list(_sampled(flight, [span for span in spans if span.keeps]))
+    unframed = [
+        *((_unseen(flight, shot, leg.times, leg.before.target), float(leg.times[0])) for leg in legs),
+        *_at_keyframes(flight, placed, phase),
+        *ways_unframed(flight, placed, phase),
     ]
-    if not shown:
+    if not unframed:
         return
-    missing, when = max((_unseen(flight, shot, t, names), float(t[0])) for t, names in shown)
-    yield claim(flight, _unframed(shot), WorstValue(missing, when, "sampled"))
+    yield claim(flight, _unframed(shot), WorstValue(*max(unframed), "sampled"))
     errors = [_off(flight, shot.id, leg) for leg in legs if leg.before.reference and leg.after.reference]
     if errors:
         worst, time = max(errors)
-        limit = _off_place(shot, "reference off its keyframes", hard=hard)
+        limit = _off_place(shot, "reference off its keyframes")
         yield claim(flight, limit, WorstValue(worst, time, "sampled"))
 
 
-def _at_keyframes(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[_Watched]:
-    """Yield the times of each keyframe with a target, where its hold begins and ends."""
+def _at_keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[tuple[float, float]]:
+    """Yield for each keyframe with a target how many frames of its hold lack it, and when it is reached."""
+    times = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
     for i, keyframe in enumerate(placed.keyframes):
         if keyframe.target is not None:
-            ends = np.unique([times[i], min(times[i] + keyframe.hold, phase.end)])
-            yield _Watched(ends, (keyframe.target,))
+            end = min(times[i] + keyframe.hold, phase.end)
+            held = np.unique(ticks(flight.mission.rate, times[i], max(end, times[i])))
+            yield _unseen(flight, placed.shot, held, keyframe.target), times[i]
 
 
-def _in_changes(flight: JudgedFlight, placed: PlacedShot, times: dict[int, float]) -> Iterator[_Watched]:
-    """Yield the times of each way from one target to another, on which one of both is framed.
-
-    Where the picture changes is left to the plan: whichever of the two it says to frame is judged.
-    """
-    for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
-        start, end = times[i] + a.hold, times[j]
-        inside = ticks_inside(flight.mission.rate, start, end)
-        if a.target is None or b.target is None or a.target == b.target or not len(inside):
-            continue
-        if dist(a.at, b.at) > SAME_PLACE_M:
-            yield _Watched(inside, (a.target, b.target))
+def _unseen(flight: JudgedFlight, shot: Shot, times: Array, target: str | None) -> float:
+    """Return the number of times, shape (M,), at which a target is not framed."""
+    return float((~framed(flight.track, shot.id, str(target), times)).sum())
 
 
-def _unseen(flight: JudgedFlight, shot: Shot, times: Array, names: tuple[str | None, ...]) -> float:
-    """Return the number of times, shape (M,), at which none of some targets is framed."""
-    seen = [framed(flight.track, shot.id, str(name), times) for name in names]
-    return float((~np.any(seen, axis=0)).sum())
-
-
-def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
+def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield claims that the subjects of a shot on its own clock are framed throughout, with their
     references.
     """
@@ -127,7 +99,7 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
         if deviation[k] > off:
             off, when = float(deviation[k]), float(t[k])
     yield claim(flight, _unframed(shot), WorstValue(missing, when, "sampled"))
-    limit = _off_place(shot, "reference off its composition", hard=hard)
+    limit = _off_place(shot, "reference off its composition")
     yield claim(flight, limit, WorstValue(off, when, "sampled"))
 
 
@@ -135,35 +107,8 @@ def _unframed(shot: Shot) -> Limit:
     return Limit("frames without their target", 0.0, "", shot.path, shot=shot.id)
 
 
-def _off_place(shot: Shot, constraint: str, *, hard: bool) -> Limit:
-    return Limit(constraint, OFF_LINE_HALF_FRAMES, "of half a frame", shot.path, hard=hard, shot=shot.id)
-
-
-def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
-    """Return at which times (M,) of a shot a target is framed between two keyframes of its own.
-
-    While the camera turns from one target to the next, neither can be whole in the frame. If a shot never has
-    its target at two consecutive keyframes, all of its frames count.
-    """
-    at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
-    if len(at) < len(placed.keyframes):
-        return np.ones(len(times), dtype=np.bool_)
-    inside = np.zeros(len(times), dtype=np.bool_)
-    for start, end, a, b in _legs(placed, at, phase):
-        inside |= (times >= start - a.hold) & (times <= end + b.hold) & (a.target == target)
-    return inside if inside.any() else ~inside
-
-
-def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[_KeyframedSpan]:
-    """Yield the intervals between neighbouring keyframes of one target."""
-    if len(placed.keyframes) == 1:
-        only = placed.keyframes[0]
-        if only.target is not None:
-            yield _KeyframedSpan(phase.start, phase.end, only, only)
-        return
-    for (i, a), (j, b) in pairwise(enumerate(placed.keyframes)):
-        if a.target is not None and a.target == b.target:
-            yield _KeyframedSpan(times[i] + a.hold, times[j], a, b)
+def _off_place(shot: Shot, constraint: str) -> Limit:
+    return Limit(constraint, OFF_LINE_HALF_FRAMES, "of half a frame", shot.path, shot=shot.id)
 
 
 class _SampledLeg(NamedTuple):
@@ -174,7 +119,7 @@ class _SampledLeg(NamedTuple):
     after: PlacedKeyframe
 
 
-def _sampled(flight: JudgedFlight, legs: Iterator[_KeyframedSpan]) -> Iterator[_SampledLeg]:
+def _sampled(flight: JudgedFlight, legs: Iterable[KeyframedSpan]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
         inside = ticks_inside(flight.mission.rate, start, end)
         yield _SampledLeg(

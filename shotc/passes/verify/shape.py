@@ -31,6 +31,9 @@ SHORTEST_S = 1e-5
 """Shortest piece, seconds; below it rounding dominates third derivatives."""
 
 
+AT_ENDS_S = 1.0
+"""Seconds before and after a flight up to which other checks report its times."""
+
 MOST_REPORTED = 5
 """Most faults of one flight's form that are reported separately."""
 
@@ -100,10 +103,14 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     if np.diff(curve.breaks).min() < SHORTEST_S:
         yield f"a piece of its curve lasts only {np.diff(curve.breaks).min():.3g} s"
         return
-    times = [t for p in phases for t in (p.start, p.end)] + [k.time for k in track.keyframes]
-    times += [t for f in track.framing for t in (f.start, f.end)]
-    if not all(map(isfinite, times)):
+    seen = [k.time for k in track.keyframes] + [t for f in track.framing for t in (f.start, f.end)]
+    if not all(map(isfinite, [t for p in phases for t in (p.start, p.end)] + seen)):
         yield "a time is not a finite number"
+        return
+    # No sample is taken beyond a flight, however far a time is.
+    outside = [t for t in seen if not curve.start - AT_ENDS_S <= t <= curve.end + AT_ENDS_S]
+    if outside:
+        yield f"a keyframe or a picture of it is at {outside[0]:.6g} s, outside of the flight"
         return
     if curve.start != 0.0:
         yield f"it begins at {curve.start:.6g} s, not at 0 s"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import inf
 
 import numpy as np
@@ -52,6 +53,17 @@ def shots(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _timing(flight, placed.shot, flown[0], ends)
             yield from _keyframes(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
             yield from _place(flight, ir, placed.shot, flown[0])
+    yield from _order(flight, ir)
+
+
+def _order(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
+    """Yield the claim that a drone's shots are flown in the order of the mission."""
+    place = {placed.shot.id: k for k, placed in enumerate(ir.keyframes.shots)}
+    flown = [p for p in flight.track.phases if p.shot in place]
+    if len(flown) > 1:
+        late = [b for a, b in pairwise(flown) if place[str(b.shot)] < place[str(a.shot)]]
+        limit = Limit("shots out of order", 0.0, "", (*flight.drone.path,))
+        yield claim(flight, limit, WorstValue(float(len(late)), late[0].start if late else None, "exact"))
 
 
 def _timing(flight: JudgedFlight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
@@ -59,6 +71,10 @@ def _timing(flight: JudgedFlight, shot: Shot, phase: Phase, ends: dict[str, floa
     if timing.duration is not None:
         off = abs(phase.end - phase.start - timing.duration)
         limit = Limit("error of duration", ON_TIME_S, "s", (*path, "duration"), shot=shot.id)
+        yield claim(flight, limit, WorstValue(off, phase.end, "exact"))
+    elif shot.ideal is None and len(shot.keyframes) == 1:
+        off = abs(phase.end - phase.start - shot.keyframes[0].hold)
+        limit = Limit("error of duration", ON_TIME_S, "s", shot.path, shot=shot.id)
         yield claim(flight, limit, WorstValue(off, phase.end, "exact"))
     if timing.start is not None:
         limit = Limit("error of start", ON_TIME_S, "s", (*path, "start"), shot=shot.id)

@@ -14,7 +14,8 @@ from shotc.ir.phases import KeyframeTime, Reference
 from shotc.ir.promise import Promise
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import JudgedFlight
-from shotc.passes.verify.reference import held, reference_framing
+from shotc.passes.verify.pictured import asked
+from shotc.passes.verify.reference import reference_framing
 from tests.support.plain_flights import (
     EAST,
     HOP,
@@ -28,9 +29,10 @@ from tests.support.plain_flights import (
 from tests.support.records import replace
 
 MIDDLE = (20.0, 0.0, 10.0)
-UNTIMED, UNFRAMED, OFF, OFF_COURSE = (
+UNTIMED, UNFRAMED, BESIDE, OFF, OFF_COURSE = (
     "keyframes without a time",
     "frames without their target",
+    "frames of another target",
     "reference off its keyframes",
     "reference off its composition",
 )
@@ -78,10 +80,10 @@ def judged(placed: PlacedShot, *spans: Reference, met: tuple[float, ...] = (4.0,
 @pytest.mark.parametrize("promise", [Promise(), Promise(in_frame=0.5), Promise(screen_error=0.1)])
 def test_a_straight_reference_between_two_keyframes_is_what_was_asked(promise: Promise) -> None:
     found = judged(plain_shot(*BOTH, promise=promise), STRAIGHT)
-    assert set(found) == {UNFRAMED, OFF}
-    assert found[UNFRAMED].worst == 0.0
+    assert set(found) == {UNFRAMED, BESIDE, OFF}
+    assert (found[UNFRAMED].worst, found[BESIDE].worst) == (0.0, 0.0)
     assert found[OFF].worst == pytest.approx(0.0, abs=1e-12)
-    assert (found[OFF].limit, found[OFF].hard) == (0.01, promise != Promise())
+    assert (found[OFF].limit, found[OFF].hard) == (0.01, True)
     assert (found[UNFRAMED].limit, found[UNFRAMED].hard, found[UNFRAMED].upper) == (0.0, True, True)
 
 
@@ -130,9 +132,9 @@ def test_every_keyframe_has_a_time(missing: int) -> None:
         if not missing:
             assert UNTIMED not in found
             continue
-        (claim,) = found.values()
-        assert (claim.constraint, claim.worst, claim.limit) == (UNTIMED, missing, 0.0)
-        assert (claim.holds, claim.hard) == (False, promise != Promise())
+        claim = found[UNTIMED]
+        assert (set(found), claim.worst, claim.limit) == ({UNTIMED, BESIDE}, missing, 0.0)
+        assert (claim.holds, claim.hard) == (False, True)
 
 
 @pytest.mark.parametrize(
@@ -163,39 +165,56 @@ def test_without_a_reference_in_a_frame_it_is_off_without_a_number() -> None:
 def test_keyframes_without_a_place_on_screen_have_no_line() -> None:
     for first, last in ((None, LAST), (FIRST, None), (None, None)):
         found = judged(plain_shot(keyframe(WEST, first), keyframe(EAST, last)), STRAIGHT)
-        assert set(found) == {UNFRAMED}
+        assert set(found) == {UNFRAMED, BESIDE}
 
 
-TICKS = 10.0 * RATE - 1  # between the two keyframes
+HALF = 3.0 * RATE - 1
+"""Frames of the first 30 % of the way from one keyframe to the other, which takes 10 s."""
 
 
 @pytest.mark.parametrize(
-    ("targets", "spans", "frames"),
+    ("targets", "spans", "lacking", "beside"),
     [
-        (("mast", "tower"), (("mast", 4.0, 9.0), ("tower", 9.0, 14.0)), 0),
-        (("mast", "tower"), (("mast", 4.0, 14.0),), 1),
-        (("mast", "tower"), (("mast", 4.0, 13.0), ("tower", 6.0, 14.0)), 0),
-        (("mast", "tower"), (("mast", 4.0, 8.0), ("tower", 9.0, 14.0)), 1.0 * RATE - 1),
-        (("mast", "tower"), (), TICKS),
-        ((None, "mast"), (("mast", 14.0, 14.0),), 0),
-        ((None, "mast"), (("mast", 4.0, 13.0),), 1),
-        (("mast", None), (("mast", 4.0, 4.0),), 0),
-        (("mast", None), (), 1),
+        (("mast", "tower"), (("mast", 4.0, 9.0), ("tower", 9.0, 14.0)), 0, 0),
+        (("mast", "tower"), (("mast", 4.0, 7.1), ("tower", 10.9, 14.0)), 0, 0),
+        (("mast", "tower"), (("mast", 4.0, 10.9), ("tower", 7.1, 14.0)), 0, 0),
+        (("mast", "tower"), (("mast", 4.0, 14.0),), HALF, 3.0 * RATE),
+        (("mast", "tower"), (("mast", 4.0, 6.0), ("tower", 9.0, 14.0)), 1.0 * RATE, 0),
+        (("mast", "tower"), (("mast", 4.0, 9.0), ("tower", 6.0, 14.0)), 0, 1.0 * RATE),
+        (("mast", "tower"), (), HALF, None),
+        ((None, "mast"), (("mast", 9.0, 14.0),), 0, 0),
+        ((None, "mast"), (("mast", 14.0, 14.0),), HALF, 0),
+        ((None, "mast"), (("mast", 4.0, 14.0),), 0, 3.0 * RATE),
+        (("mast", None), (("mast", 4.0, 9.0),), 0, 0),
+        (("mast", None), (("mast", 4.0, 4.0),), HALF, 0),
+        (("mast", None), (("mast", 4.0, 14.0),), 0, 3.0 * RATE),
+        (("mast", None), (), HALF, None),
+        ((None, None), (("mast", 6.0, 8.0),), None, 2.0 * RATE + 1),
+        (("mast", "mast"), (("mast", 4.0, 14.0), ("tower", 6.0, 8.0)), 0, 2.0 * RATE + 1),
     ],
 )
-def test_keyframes_of_two_targets_have_one_of_them_framed_between(
-    targets: tuple[str | None, str | None], spans: tuple[tuple[str, float, float], ...], frames: float
+def test_the_picture_of_a_target_ends_in_the_middle_of_the_way_to_another_or_to_none(
+    targets: tuple[str | None, str | None],
+    spans: tuple[tuple[str, float, float], ...],
+    lacking: float | None,
+    beside: float | None,
 ) -> None:
-    turned = plain_shot(keyframe(WEST, FIRST, targets[0]), keyframe(EAST, LAST, targets[1]))
+    """On what is not within a fifth of the way from the middle, no plan chooses what it frames."""
+    turned = plain_shot(keyframe(WEST, None, targets[0]), keyframe(EAST, None, targets[1]))
     found = judged(turned, *(span(None, start, end, target) for target, start, end in spans))
-    assert set(found) == {UNFRAMED}
-    assert (found[UNFRAMED].worst, found[UNFRAMED].holds) == (frames, frames == 0)
+    for name, frames in ((UNFRAMED, lacking), (BESIDE, beside)):
+        assert (name in found) is (frames is not None)
+        if frames is not None:
+            assert found[name].worst == pytest.approx(frames, abs=1.0)
+            assert (found[name].holds, found[name].hard) == (frames == 0, True)
 
 
 def test_a_hold_frames_its_target_to_its_end() -> None:
-    held = plain_shot(keyframe(WEST, FIRST, "mast", hold=2.0), keyframe(EAST, LAST, None))
-    assert judged(held, span(None, 4.0, 6.0))[UNFRAMED].worst == 0
-    assert judged(held, span(None, 4.0, 5.0))[UNFRAMED].worst == 1
+    held = plain_shot(keyframe(WEST, FIRST, "mast", hold=2.0), keyframe(EAST, LAST, "tower"))
+    after = span(None, 9.5, 14.0, "tower")
+    assert judged(held, span(None, 4.0, 9.5), after)[UNFRAMED].worst == 0
+    gap = (span(None, 4.0, 5.0), span(None, 5.5, 9.5), after)
+    assert judged(held, *gap)[UNFRAMED].worst == pytest.approx(0.5 * RATE, abs=1.0)
 
 
 def test_a_camera_that_turns_on_the_spot_frames_its_targets_before_and_after() -> None:
@@ -204,7 +223,9 @@ def test_a_camera_that_turns_on_the_spot_frames_its_targets_before_and_after() -
 
 
 def test_keyframes_of_no_target_have_nothing_between_them() -> None:
-    assert judged(plain_shot(keyframe(WEST, FIRST, None), keyframe(EAST, LAST, None)), STRAIGHT) == {}
+    nothing = plain_shot(keyframe(WEST, FIRST, None), keyframe(EAST, LAST, None))
+    assert judged(nothing) == {}
+    assert judged(nothing, STRAIGHT)[BESIDE].worst == 10.0 * RATE + 1
 
 
 def test_a_hold_before_the_way_is_not_judged_by_the_line() -> None:
@@ -222,7 +243,8 @@ def test_a_hold_before_the_way_is_not_judged_by_the_line() -> None:
 def test_a_single_keyframe_is_framed_for_the_whole_shot(target: str | None) -> None:
     one = plain_shot(keyframe(WEST, FIRST, target))
     found = judged(one, span(wanted(FIRST, FIRST), 4.0, 9.0), met=(4.0,))
-    assert (found[UNFRAMED].worst if target else found) == (5.0 * RATE if target else {})
+    frames = {UNFRAMED: 5.0 * RATE, OFF: inf} if target else {BESIDE: 5.0 * RATE + 1}
+    assert {name: claim.worst for name, claim in found.items() if not claim.holds} == frames
 
 
 def test_the_worst_of_several_ways_is_told() -> None:
@@ -259,7 +281,7 @@ def test_subjects_of_a_shot_on_its_own_clock_keep_their_places(off: float, holds
         )
         found = judged(on_clock(subject(FIRST), subject(LAST, "tower"), promise=promise), *spans)
         assert found[OFF_COURSE].worst == pytest.approx(off)
-        assert (found[OFF_COURSE].holds, found[OFF_COURSE].hard) == (holds, promise != Promise())
+        assert (found[OFF_COURSE].holds, found[OFF_COURSE].hard) == (holds, True)
         assert not off or found[OFF_COURSE].time == pytest.approx(9.0)
         assert (found[UNFRAMED].worst, found[UNFRAMED].hard) == (0.0, True)
 
@@ -283,14 +305,12 @@ def test_a_target_is_held_between_its_own_keyframes_and_in_their_holds() -> None
     one = flight(met=met)
 
     def kept(target: str, placed: PlacedShot) -> list[float]:
-        inside = times[held(one, placed, PHASES[1], target, times)]
-        return [float(inside[0]), float(inside[-1]), len(inside)]
+        inside = times[asked(one, placed, PHASES[1], target, times)]
+        return [float(inside[0]), float(inside[-1]), len(inside)] if len(inside) else []
 
     assert kept("mast", plain_shot(*keyframes)) == pytest.approx([4.0, 7.5, 36])
     assert kept("tower", plain_shot(*keyframes)) == pytest.approx([10.0, 14.0, 41])
-    assert kept("post", plain_shot(*keyframes)) == pytest.approx([4.0, 14.0, 101])
-    # Where one keyframe lacks its time, all frames count.
-    assert kept("mast", plain_shot(*keyframes, keyframes[0])) == pytest.approx([4.0, 14.0, 101])
+    assert kept("post", plain_shot(*keyframes)) == []
 
 
 def test_a_subject_without_a_place_on_screen_hides_no_other_one() -> None:

@@ -200,6 +200,15 @@ def test_every_time_is_a_number(bad: float) -> None:
     assert faults(framing=(replace(on_screen(0.0), start=bad),)) == said
 
 
+@pytest.mark.parametrize(("time", "told"), [(1e11, "1e+11"), (-1e11, "-1e+11"), (29.1, "29.1"), (28.9, "")])
+def test_no_time_is_far_outside_of_the_flight(time: float, told: str) -> None:
+    """Samples up to 1e11 s would take more memory than there is. The flight ends at 28 s."""
+    said = [f"a keyframe or a picture of it is at {told} s, outside of the flight"] if told else []
+    assert faults(keyframes=(KeyframeTime("out", 0, time),)) == said
+    if time > 0.0:
+        assert faults(framing=(replace(on_screen(0.0), end=time),)) == said
+
+
 @pytest.mark.parametrize(
     ("times", "said"),
     [

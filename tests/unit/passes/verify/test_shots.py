@@ -273,3 +273,25 @@ def test_the_first_and_the_last_frame_count_between_two_samples(time: float) -> 
     claim = judged(ideal(placed=False), way=spike, phases=tuple(phases))["distance from its place"]
     assert claim.worst == pytest.approx(7.0, abs=0.01)
     assert claim.time == time
+
+
+@pytest.mark.parametrize("names", [("out", "back"), ("back", "out")])
+def test_shots_of_a_drone_are_flown_in_the_order_of_the_mission(names: tuple[str, str]) -> None:
+    """The mission has `out` before `back`; the second is flown on the way home."""
+    mission = plain_mission()
+    phases = renamed(None, names[0], names[1], None)
+    track = DroneTrajectory("cam1", lines(HOP), tuple(replace(p, name="shot") for p in phases), (), ())
+    asked = (shot(keyframe(WEST)), shot(keyframe(WEST), id="back"))
+    ir = TrajectoryIR(KeyframeIR(mission, asked), (track,), (), ())
+    found = shots(JudgedFlight(mission, mission.drones[0], track), ir)
+    (claim,) = (c for c in found if c.constraint == "shots out of order")
+    turned = names[0] == "back"
+    assert (claim.worst, claim.limit, claim.holds, claim.hard) == (float(turned), 0.0, not turned, True)
+    assert claim.time == (14.0 if turned else None)
+
+
+@pytest.mark.parametrize(("hold", "holds"), [(10.0, True), (10.0009, True), (10.0011, False), (9.0, False)])
+def test_a_still_shot_without_a_duration_lasts_as_long_as_its_kind_holds(hold: float, holds: bool) -> None:
+    claim = judged(shot(keyframe(WEST, hold=hold)))["error of duration"]
+    assert (claim.worst, claim.holds) == (pytest.approx(abs(10.0 - hold), abs=1e-9), holds)
+    assert "error of duration" not in judged(shot(keyframe(WEST, hold=hold), keyframe(EAST)))

@@ -15,16 +15,9 @@ from shotc.ir.path import CAM_YAW, HFOV, X, Y
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit
-from shotc.passes.verify.course import (
-    BESIDE_S,
-    SWING_SHARE,
-    UNREPORTED_M,
-    _along,
-    _is_free,
-    _off_course,
-    _swing,
-)
+from shotc.passes.verify.course import SWING_SHARE, UNREPORTED_M, _along, _is_free, _swing
 from shotc.passes.verify.explained import NEAR_M
+from shotc.passes.verify.looking import BESIDE_S, _off_course
 from shotc.passes.verify.shots import ON_PLACE, _still
 from tests.support.mesh_spaces import made_of
 from tests.support.records import replace

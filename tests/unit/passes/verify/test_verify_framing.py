@@ -19,7 +19,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import Verify
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.hidden import hidden_by
-from shotc.passes.verify.reference import held
+from shotc.passes.verify.pictured import asked
 from shotc.passes.verify.visible import longest
 from tests.support.records import replace
 from tests.support.scenes import house, turned
@@ -312,7 +312,7 @@ def test_a_target_counts_from_its_first_keyframe_to_its_last_with_their_holds() 
     t = [k.time for k in track.keyframes]
     times = np.array([t[0], t[1] - 0.1, t[1], t[2], t[3], t[3] + 1.9, t[3] + 2.1, t[4]])
     flight = JudgedFlight(MISSION, MISSION.drones[0], track)
-    found = held(flight, replace(placed, keyframes=tuple(keyframes)), phase, "tower", times)
+    found = asked(flight, replace(placed, keyframes=tuple(keyframes)), phase, "tower", times)
     assert found.tolist() == [False, False, True, True, True, True, False, False]
 
 
