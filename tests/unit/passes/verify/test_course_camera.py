@@ -130,6 +130,19 @@ def test_a_camera_may_turn_and_zoom_from_one_keyframe_to_the_next() -> None:
     assert [found[name].worst for name in (BETWEEN, LENS_BETWEEN)] == [0.0, 0.0]
 
 
+@pytest.mark.parametrize(("beyond", "holds"), [(0.449, True), (0.451, False)])
+def test_a_camera_may_swing_by_a_quarter_of_its_turn_beyond_it(beyond: float, holds: bool) -> None:
+    """It turns by 1 rad, so 0.25 rad count beside the 0.2 rad of a camera that does not turn."""
+    curve = lines(HALF_WAY)
+    ctrl = curve.ctrl.copy()
+    k = int(np.searchsorted(curve.breaks, 9.0))
+    ctrl[k - 1, -1, CAM_YAW] = ctrl[k, 0, CAM_YAW] = 1.0 + beyond
+    ctrl[k, -1, CAM_YAW] = ctrl[k + 1, 0, CAM_YAW] = 1.0
+    claim = looked(shot(BOTH[0], BOTH[1]._replace(yaw=1.0)), curve=Piecewise(curve.breaks, ctrl))[BETWEEN]
+    assert (claim.worst, claim.limit) == (pytest.approx(beyond, rel=1e-3), pytest.approx(0.45))
+    assert claim.holds is holds
+
+
 def test_a_camera_that_follows_a_target_turns_as_it_does() -> None:
     framed = tuple(k._replace(target="mast", reference=(0.0, 0.0)) for k in BOTH)
     assert BETWEEN not in looked(shot(*framed), curve=swung(CAM_YAW, 1.0))
