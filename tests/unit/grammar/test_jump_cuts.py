@@ -43,8 +43,19 @@ def test_thirty_degrees_or_half_as_large_again(azimuth: float, distance: float, 
 def test_the_numbers_are_told() -> None:
     text = mission(still("a", 0, 20), still("b", 20, 16)).replace("rules: {", "rules: {ground_clearance: 0, ")
     (said,) = grammar(text)
-    assert "20 deg round it, which is then 1.2 times as" in said.notes[0] or "1.3 times" in said.notes[0]
+    assert "19 deg round it, which is then 1.25 times as large" in said.notes[0]
     assert said.help.startswith("begin `b` at [8.")
+
+
+def test_a_size_that_almost_changes_enough_is_told_as_less_than_the_factor() -> None:
+    text = mission(still("a", 0, 20), still("b", 1, 29.9)).replace(
+        "rules: {", "rules: {ground_clearance: 0, "
+    )
+    (said,) = grammar(text)
+    assert (
+        "1.49 times smaller; a cut needs 30 deg or more, or a size that changes by a factor of 1.5"
+        in (said.notes[0])
+    )
 
 
 ROUNDS = (

@@ -57,7 +57,8 @@ def check_jump(
     angle, ratio = between(left, right), right.scale / left.scale
     if angle >= VIEWS_APART_RAD or not 1 / ALIKE_SIZE_RATIO < ratio < ALIKE_SIZE_RATIO:
         return None
-    change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
+    # Rounded down: "1.5 times smaller" would read as if it met the factor of 1.5.
+    change = f"{at_most(ratio)} times as large" if ratio >= 1 else f"{at_most(1 / ratio)} times smaller"
     remedy = to_the_side(mission, after, left, right, VIEWS_APART_RAD)
     remedies = [remedy] if remedy else []
     remedies += _as_far(mission, after, right, ratio) or [
