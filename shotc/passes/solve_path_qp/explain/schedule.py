@@ -48,11 +48,15 @@ def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
     label = mission.origins.key(shot.path) if start is None else timing_value(mission, shot.path, "start")
     starts = "has no start" if start is None else f"starts at {plain(start)} s"
     labels, beginning = [label], f"shot `{shot.id}` {starts}"
-    sum_up = f"{at_least(late.before[-1].end)} s, the last {late.run_up:.1f} s to come up to speed"
+    sum_up = (
+        f"{at_least(late.before[-1].end)} s, with a stop before the run-up, which is the last "
+        f"{late.run_up:.1f} s"
+    )
     notes = [f"before it come {phases_in_words(late.before)}: {sum_up}"]
     remedies = []
     if late.earliest is not None:
-        message = f"{beginning}, but {at_least(late.earliest)} s is the earliest possible"
+        # A drone that does not stop before its run-up would be there earlier; no such way is planned.
+        message = f"{beginning}, but {at_least(late.earliest)} s is the earliest that is found"
         remedies.append(
             f"give it `start: {at_least(late.earliest)} s`" + (" or later" if short is None else "")
         )

@@ -148,7 +148,8 @@ def test_a_start_that_comes_too_early_is_told_with_the_earliest() -> None:
     early = text(KINDS["chase"]).replace(b"start: 15", b"start: 6")
     done = compiled_text(early.decode(), "none", "m.yaml")
     assert [d.code for d in done.diagnostics if d.code.startswith("T")] == ["T003"]
-    assert "earliest possible" in done.diagnostics[-1].message
+    assert "earliest that is found" in done.diagnostics[-1].message
+    assert "with a stop before the run-up, which is the last" in done.diagnostics[-1].notes[0]
 
 
 def test_two_shots_of_moving_targets_follow_one_another_and_one_of_a_standing_target() -> None:
