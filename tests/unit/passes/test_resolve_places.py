@@ -13,8 +13,8 @@ from tests.support.resolve_missions import FIRST, at, faults, mission, only, spa
 @pytest.mark.parametrize(
     ("place", "code", "says", "remedy"),
     [
-        ((0, -50, -3), "G001", "3.00 m underground", "by 5.60 m, to z = 2.60"),
-        ((0, -50, 2.5), "G001", "2.50 m over the ground", "by 0.10 m, to z = 2.60"),
+        ((0, -50, -3), "G001", "3.00 m underground", "by 5.61 m, to z = 2.61"),
+        ((0, -50, 2.5), "G001", "2.50 m over the ground", "by 0.11 m, to z = 2.61"),
         ((-30, 20, 11), "G002", "inside zone `tree`", "1.61 m up, to [-30.00, 20.00, 12.61]"),
         ((-27.5, 20, 5), "G002", "inside zone `tree`", "1.11 m east, to [-26.39, 20.00, 5.00]"),
         ((-26.6, 20, 5), "G002", "too close to zone `tree`", "0.21 m east, to [-26.39, 20.00, 5.00]"),

@@ -20,6 +20,12 @@ from shotc.passes.resolve.checks.move_out import move_out
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least
 
+ROOM_M = 0.01
+"""Metres above the ground's clearance to which a low keyframe is to be raised.
+
+A way that dips to a keyframe on the clearance itself leaves a refiner no room there (R012).
+"""
+
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield the faults of a shot's keyframes, one per key path and obstacle, with the key path."""
@@ -67,8 +73,8 @@ def too_low(
         label = mission.origins.value((*shot.path, "altitude"))
     message = f"{_what(shot, lowest)} is too low: {where}"
     notes = (note, *_over_ground(mission, lowest, floor))
-    to = f"to z = {at_least(floor)}" if lowest.beside is None else "that is, its offset or altitude"
-    help_ = f"raise it by {at_least(need - z)} m, {to}"
+    to = f"to z = {at_least(floor + ROOM_M)}" if lowest.beside is None else "that is, its offset or altitude"
+    help_ = f"raise it by {at_least(need - z + ROOM_M)} m, {to}"
     yield Diagnostic("G001", message, (label,), notes, help_)
 
 
