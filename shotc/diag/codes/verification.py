@@ -268,7 +268,7 @@ _FORM = (
             "a shot is missing, or not flown when it was asked",
             "Every shot of the mission is flown exactly once; its duration and start are met to a millisecond, and "
             "it begins no earlier than the end of the shot it comes after. Every picture of a display is shown, in "
-            "the order written, as long as it is to be held. In a wave drones set out within its time, to two pieces "
+            "the order written, as long as it is to be held, and longer only before a picture with `at`. In a wave drones set out within its time, to two pieces "
             "of their splines.",
         ),
     ),

@@ -22,6 +22,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
+from shotc.passes.verify.fleets.standing import frames_of, standing
 
 LEAST_WAY_M = 0.05
 """Least distance of a move, metres, for which the departure of drones is checked."""
@@ -41,6 +42,8 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             frames = [s for s in flight.track.shown if s.display == display.id]
             yield from _timing(flight, display, flown[0], ends)
             yield from _pictures(flight, display, flown[0], frames)
+            known = [s for s in frames if s.picture in range(len(display.pictures))]
+            yield from standing(flight.fleet.name, display, flown[0], known)
             yield from _transitions(flight, display, frames)
             yield from _waves(flight, display, frames)
             yield from _holds(flight, display, frames)
@@ -71,11 +74,12 @@ def _early(after: str | None, ends: dict[str, float], start: float) -> float | N
 def _pictures(
     flight: FleetFlight, display: Display, phase: Phase, frames: Sequence[FrameTimes]
 ) -> Iterator[Claim]:
-    """Yield claims that every picture is shown, in order, within the display, for its hold."""
+    """Yield claims that every frame is shown, in order, within the display, and each picture for its hold."""
     name, pictures = flight.fleet.name, range(len(display.pictures))
     order = [(s.picture, s.index) for s in frames]
-    missing = len(set(pictures) - {picture for picture, _ in order})
-    astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in pictures for p, _ in order)
+    asked = set(_frames(display, order))
+    missing = len({picture for picture, _ in asked - set(order)})
+    astray = sum(b <= a for a, b in pairwise(order)) + sum(frame not in asked for frame in order)
     times = [phase.start, *(t for s in frames for t in (s.start, s.end)), phase.end]
     astray += sum(b < a - LIMIT_TOLERANCE for a, b in pairwise(times))
     limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
@@ -90,6 +94,14 @@ def _pictures(
         path = (*display.pictures[at.picture].path, "hold")
         limit = Limit("lack of hold", ON_TIME_S, "s", path, shot=display.id)
         yield held(name, limit, WorstValue(max(lack, 0.0), at.start, "exact"))
+
+
+def _frames(display: Display, order: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int]]:
+    """Yield (picture, index) of the frames that a display has; of a recorded flight as many as are shown."""
+    for k, picture in enumerate(display.pictures):
+        count = frames_of(picture)
+        shown = max(1, sum(p == k for p, _ in order))
+        yield from ((k, index) for index in range(shown if count is None else count))
 
 
 def _moments(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:

@@ -82,8 +82,8 @@ def test_a_sound_show_is_verified() -> None:
     assert {c.constraint for c in verdict.certificate} == {
         "distance from home", "rate at start and end", "endurance", "speed", "climb", "descent",
         "acceleration", "jerk", "ground clearance", "drift from the vertical", "depth below home",
-        "times flown", "pictures left out", "pictures out of order", "lack of hold", "error of transition",
-        "drift at rest", "separation",
+        "times flown", "pictures left out", "pictures out of order", "lack of hold", "excess of hold",
+        "display without a picture", "error of transition", "drift at rest", "separation",
     }  # fmt: skip
     for c in verdict.certificate:
         assert rule_of(c.constraint, mission()).code in registry()
