@@ -56,7 +56,7 @@ def test_a_refiner_that_makes_a_shot_too_long_is_blamed(planned):
 
 def test_a_refiner_that_breaks_a_promise_is_blamed(planned):
     promised = text().replace("    radius: 25\n", "    require: {screen_error: 0.02}\n    radius: 25\n")
-    done = planned(lambda ir: Outcome(bumped(ir, ROUND, along(3, 0.3))), promised)
+    done = planned(lambda ir: Outcome(bumped(ir, ROUND, along(4, 0.3))), promised)
     assert [d.code for d in done.diagnostics] == ["R009"]
     assert "0.02 is promised at most" in done.diagnostics[0].notes[0]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from functools import cache
-from math import atan2, pi, radians
+from math import atan2, cos, pi, radians, sin
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,6 @@ import pytest
 from shotc.api import Compilation, verify_plan
 from shotc.cli.summary import summary
 from shotc.diag.model import Diagnostic
-from shotc.ir.measures import measure
 from shotc.ir.path import CAM_YAW
 from shotc.planfile.write import document
 from tests.support.compiled import compiled_text
@@ -191,12 +190,16 @@ def test_a_cone_that_is_none_is_refused(angle: object) -> None:
     assert verify_plan(json.dumps(value).encode(), "plan.json").plan is None
 
 
-def test_how_far_aside_another_has_to_be_is_what_lacks_of_the_angle() -> None:
+def test_how_far_aside_another_has_to_be_is_what_lacks_to_the_cone() -> None:
     found = planned(("6, 30", "180"), "rules: {mutual_visibility: {half_angle: 20 deg, strength: prefer}}")
     assert found.plan is not None
     (first, _) = told(found)
     claim = next(c for c in found.plan.certificate if c.constraint == "two out of the picture")
     # The body is nearer to the axis than its centre by as much as its radius is wide.
     assert 0.8 * atan2(6.0, 60.0) < claim.worst < atan2(6.0, 60.0)
-    lack = measure(radians(20.0) - claim.worst, "rad")
-    assert f"film from where `two` is {lack} farther off the axis" in first.help
+    radius = found.plan.trajectory.keyframes.mission.drone("two").radius
+    # The other is 6 m beside the axis and 60 m ahead; its sphere has to touch the cone from outside.
+    lack = (60.0 * sin(radians(20.0)) + radius) / cos(radians(20.0)) - 6.0
+    metres = re.search(r"film from where `two` is ([0-9.]+) m farther to the right", first.help)
+    assert metres is not None
+    assert lack < float(metres[1]) < lack + 0.2
