@@ -274,4 +274,15 @@ CODES: tuple[CodeInfo, ...] = (
             "     altitude: 12, timing: {after: round, duration: 20}}\n",
         ),
     ),
+    slip(
+        "K023",
+        "chosen-for-its-camera",
+        "a drone is passed over for a shot that it cannot film as it is asked",
+        "`drone: auto` takes the choice of drones with the least work. Here that choice has a drone whose lens, gimbal or "
+        "speed cannot film a shot as it is asked, and another drone of the mission can. So the other one films it, and may "
+        "come from farther away. Name the drone to confirm the choice.",
+        _PASSING,
+        ("shots:\n", "  cam2: {model: x500, home: [0, -70, 0], camera: {hfov: 20 deg}}\nshots:\n"),
+        ("{id: rise, kind: elevator, drone: cam1", "{id: rise, kind: elevator, drone: auto"),
+    )._replace(severity=Severity.WARNING, phase="plan"),
 )

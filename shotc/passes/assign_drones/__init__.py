@@ -1,13 +1,15 @@
 """assign-drones: LoadedMission to LoadedMission, every `drone: auto` replaced by a drone.
 
-It takes a mission of valid form. It gives it with the choice of drones that films everything in time with the
-least work for the busiest drone, and among these the one with the least distance. No drone has to be in two
-places at once. If there is no such choice, the error states when more drones are needed than exist.
+It takes a mission of valid form. It gives it with the choice of drones that films everything in time, as far
+as possible by drones that can film it as it is asked. Among these choices it takes the least work for the
+busiest drone, then the least distance. No drone has to be in two places at once. If there is no such choice,
+the error states when more drones are needed than exist. If the least work alone would take a drone that
+cannot film a shot, a warning says why another one films it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from shotc.diag.model import Diagnostic
@@ -50,7 +52,29 @@ class AssignDrones:
         choice = choose(tasks, tuple(spec.drones))
         if choice is None:
             return Outcome(None, (_too_few(ir, tasks),))
-        return Outcome(_with(ir, choice))
+        return Outcome(_with(ir, choice), tuple(_passed_over(ir, tasks, choice)))
+
+
+def _passed_over(ir: LoadedMission, tasks: tuple[ShotTask, ...], choice: Choice) -> Iterator[Diagnostic]:
+    """Yield a warning for each shot that the drone of the least work cannot film as it is asked."""
+    if not any(task.refused for task in tasks):
+        return
+    from shotc.passes.assign_drones.choice import choose
+
+    least_work = choose([task._replace(refused={}) for task in tasks], tuple(ir.spec.drones))
+    assert least_work is not None, "it has a choice with fewer refused shots"
+    for task in tasks:
+        other, chosen = least_work[task.number], choice[task.number]
+        fault = task.refused.get(other)
+        if fault is not None and other != chosen:
+            why = f"by `{other}`, the choice of the least work: {fault.message} ({fault.code})"
+            yield Diagnostic(
+                "K023",
+                f"`{chosen}` films shot `{task.id}`, because `{other}` cannot film it as it is asked",
+                (ir.origins.value(("shots", task.number, "drone")),),
+                (why, *fault.notes[:1]),
+                f"write `drone: {chosen}` to confirm that",
+            )
 
 
 def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:

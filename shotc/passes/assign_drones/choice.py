@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -22,8 +23,29 @@ Row = tuple[dict[int, float], float]
 def choose(tasks: Sequence[ShotTask], drones: Sequence[str]) -> Choice | None:
     """Return the drone of every task by the task's index; None if infeasible.
 
-    The work of the busiest drone is minimal, in seconds of film and transfers. Among such choices the least
-    distance is taken, then the drones written first.
+    As few shots as possible get a drone that cannot film them as they are asked. Among such choices the work
+    of the busiest drone is minimal, in seconds of film and transfers. Then the least distance is taken, then
+    the drones written first.
+    """
+    programme = _programme(tasks, drones)
+    refused = np.zeros(len(programme.cost))
+    refused[:-1] = [d in task.refused for task in tasks for d in drones]
+    if refused.any():
+        fewest = least_cost(replace(programme, cost=refused))
+        if fewest is None:
+            return None
+        rows = np.vstack([programme.rows, refused])
+        programme = replace(programme, rows=rows, most=np.append(programme.most, np.rint(refused @ fewest)))
+    solution = least_cost(programme)
+    if solution is None:
+        return None
+    chosen = solution[:-1].reshape(len(tasks), len(drones)).argmax(axis=1)
+    return {task.number: drones[k] for task, k in zip(tasks, chosen, strict=True)}
+
+
+def _programme(tasks: Sequence[ShotTask], drones: Sequence[str]) -> AssignmentProgramme:
+    """Return the choice of the least work: one unknown for each task and drone, then the work of the busiest
+    drone.
     """
     count = len(tasks) * len(drones)
     column = {(i, d): i * len(drones) + k for i, _ in enumerate(tasks) for k, d in enumerate(drones)}
@@ -40,11 +62,7 @@ def choose(tasks: Sequence[ShotTask], drones: Sequence[str]) -> Choice | None:
         for c, value in terms.items():
             matrix[r, c] = value
     most = np.array([bound for _, bound in rows])
-    solution = least_cost(AssignmentProgramme(cost, highest, once, matrix, most, whole=count))
-    if solution is None:
-        return None
-    chosen = solution[:count].reshape(len(tasks), len(drones)).argmax(axis=1)
-    return {task.number: drones[k] for task, k in zip(tasks, chosen, strict=True)}
+    return AssignmentProgramme(cost, highest, once, matrix, most, whole=count)
 
 
 def _can(task: ShotTask, drone: str) -> bool:

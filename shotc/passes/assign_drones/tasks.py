@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from math import ceil, dist
 from typing import NamedTuple
 
+from shotc.diag.model import Diagnostic
 from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.passes import PassContext
+from shotc.ir.mission import MissionIR
 from shotc.kinds.base import Kind
-from shotc.passes.resolve import Resolve
+from shotc.passes.assign_drones.alone import alone
 from shotc.passes.resolve.checks.motion import least_shot, least_travel
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.spec.load import LoadedMission
@@ -37,6 +37,7 @@ class ShotTask(NamedTuple):
     ends : where the camera begins and ends, by drone
     flown_by : its drone, None where it is open
     drones : of the mission, by name
+    refused : why a drone cannot film it as it is asked, by drone; empty where all can, or none
     """
 
     number: int
@@ -46,6 +47,7 @@ class ShotTask(NamedTuple):
     ends: Mapping[str, CameraEnds]
     flown_by: str | None
     drones: Mapping[str, Drone]
+    refused: Mapping[str, Diagnostic]
 
     def travel_time(self, drone: str) -> float:
         """Return the least time from a drone's home to the shot, seconds."""
@@ -65,44 +67,27 @@ class ShotTask(NamedTuple):
 
 
 def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[ShotTask, ...] | None:
-    """Return every shot as a task; None where one is invalid.
-
-    Each shot is resolved alone, without obstacles that take long to read: scenes and buildings.
-    """
+    """Return every shot as a task; None where one is invalid with every drone that may film it."""
     tasks: list[ShotTask] = []
-    for i, written in enumerate(ir.spec.shots):
+    for number, written in enumerate(ir.spec.shots):
         open_ = written.drone == AUTO
-        first, *others = ir.spec.drones if open_ else (written.drone,)
-        mission = _alone(ir, kinds, i, first)
-        if mission is None:
+        drones = tuple(ir.spec.drones) if open_ else (written.drone,)
+        alone_by = {drone: alone(ir, kinds, number, drone) for drone in drones}
+        resolved = {drone: one.mission for drone, one in alone_by.items() if one.mission is not None}
+        if not resolved:
             return None
-        ends = dict.fromkeys(ir.spec.drones, _ends(mission, mission.shots[0]))
-        if open_ and _depends_on_drone(mission.shots[0]):
-            for drone in others:
-                resolved = _alone(ir, kinds, i, drone)
-                if resolved is not None:
-                    ends[drone] = _ends(resolved, resolved.shots[0])
-        tasks.append(_task(i, mission, ends, None if open_ else written.drone))
+        mission = next(iter(resolved.values()))
+        ends = dict.fromkeys(ir.spec.drones, _ends(mission))
+        ends |= {drone: _ends(own) for drone, own in resolved.items()}
+        refused = {drone: one.fault for drone, one in alone_by.items() if one.fault is not None}
+        if len(refused) == len(drones):
+            refused = {}
+        tasks.append(_task(number, mission, ends, None if open_ else written.drone, refused))
     return tuple(tasks)
 
 
-def _alone(ir: LoadedMission, kinds: Mapping[str, Kind], number: int, drone: str) -> MissionIR | None:
-    """Return the mission with one shot alone, flown by a drone; None if it is invalid."""
-    written = ir.spec.shots[number]
-    timing = written.timing.model_copy(update={"after": None})
-    shots = (written.model_copy(update={"drone": drone, "timing": timing}),)
-    world = ir.spec.world.model_copy(update={"scene": None, "buildings": None})
-    one = ir._replace(spec=ir.spec.model_copy(update={"shots": shots, "world": world}))
-    mission = Resolve(kinds).run(one, PassContext()).value
-    return mission if mission is not None and mission.shots else None
-
-
-def _depends_on_drone(shot: Shot) -> bool:
-    """Return whether a shot's place depends on its drone: on its lens, and on where it comes from."""
-    return shot.ideal is not None and shot.ideal.framed
-
-
-def _ends(mission: MissionIR, shot: Shot) -> CameraEnds:
+def _ends(mission: MissionIR) -> CameraEnds:
+    shot = mission.shots[0]
     if shot.ideal is None:
         return CameraEnds(shot.keyframes[0].at, shot.keyframes[-1].at)
     begin = shot.timing.start or 0.0
@@ -110,12 +95,18 @@ def _ends(mission: MissionIR, shot: Shot) -> CameraEnds:
     return CameraEnds(ideal_place(mission, shot, begin, begin), ideal_place(mission, shot, begin, end))
 
 
-def _task(index: int, mission: MissionIR, ends: Mapping[str, CameraEnds], flown_by: str | None) -> ShotTask:
+def _task(
+    index: int,
+    mission: MissionIR,
+    ends: Mapping[str, CameraEnds],
+    flown_by: str | None,
+    refused: Mapping[str, Diagnostic],
+) -> ShotTask:
     shot, drones = mission.shots[0], {drone.name: drone for drone in mission.drones}
     duration = shot.timing.duration
     if shot.ideal is None and not duration:
         duration = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
-    return ShotTask(index, shot.id, shot.timing.start, duration or 0.0, ends, flown_by, drones)
+    return ShotTask(index, shot.id, shot.timing.start, duration or 0.0, ends, flown_by, drones, refused)
 
 
 def busiest(tasks: tuple[ShotTask, ...]) -> tuple[float, list[ShotTask]]:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
+from shotc.diag.model import Diagnostic
 from shotc.kinds.models import mesh_file
 from shotc.passes.assign_drones.choice import WORK_PER_METRE_S, choose
 from shotc.passes.assign_drones.tasks import CameraEnds, ShotTask
@@ -25,7 +26,7 @@ def task(
     number: int, start: float | None, lasts: float, x: float, y: float, by: str | None = None
 ) -> ShotTask:
     ends = dict.fromkeys(DRONES, CameraEnds((x, y, 10.0), (x, y, 10.0)))
-    return ShotTask(number, f"s{number}", start, lasts, ends, by, DRONES)
+    return ShotTask(number, f"s{number}", start, lasts, ends, by, DRONES, {})
 
 
 def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
@@ -50,7 +51,7 @@ PLACE = st.floats(-80.0, 80.0)
 START = st.one_of(st.none(), st.floats(0.0, 120.0))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(deadline=None, max_examples=60)
 @given(st.lists(st.tuples(START, st.floats(1.0, 40.0), PLACE, PLACE), min_size=1, max_size=4))
 def test_the_choice_is_the_best_of_all(drawn: list[tuple[float | None, float, float, float]]) -> None:
@@ -133,3 +134,59 @@ def test_what_is_wrong_by_itself_is_told_as_ever(wrong: str) -> None:
     text = HEAD + SIDE.replace("cam1", "auto").replace(right, wrong)
     done = compile_source(text.encode(), "m.yaml", None, PlanOptions(refiner="none"))
     assert [d.code for d in done.diagnostics] == ["M006" if "altitude" in wrong else "N001"]
+
+
+LENSES = """\
+shotc: 1
+mission: lenses
+targets: {tower: {at: [0, 0, 12], radius: 4, height: 24}}
+drones:
+  near: {model: x500, home: [0, -50, 0], camera: {hfov: 20 deg}}
+  far: {model: x500, home: [0, -150, 0]}
+shots:
+  - {id: rise, kind: elevator, drone: auto, target: tower, azimuth: 180 deg, distance: 50, altitude: [8, 14]}
+"""
+
+
+def chosen(text: str) -> tuple[dict[str, str], list[str]]:
+    """Return the drone of every shot, and the codes, of a mission whose keyframes are placed."""
+    done = compile_source(text.encode(), "m.yaml", None, PlanOptions(stop_after="place-keyframes"))
+    (spec,) = (report.output.spec for report in done.reports if report.name == "assign-drones")
+    return {s.id: s.drone for s in spec.shots}, [d.code for d in done.diagnostics]
+
+
+@pytest.mark.slow
+def test_a_drone_whose_lens_shows_the_whole_target_is_preferred() -> None:
+    assert chosen(LENSES) == ({"rise": "far"}, ["K023"])
+    assert chosen(LENSES.replace("drone: auto", "drone: far")) == ({"rise": "far"}, [])
+
+
+@pytest.mark.slow
+def test_where_no_drone_can_film_a_shot_the_nearest_is_told_the_fault() -> None:
+    both = LENSES.replace("-150, 0]}", "-150, 0], camera: {hfov: 20 deg}}")
+    assert chosen(both) == ({"rise": "near"}, ["G010"])
+
+
+@pytest.mark.slow
+def test_a_shot_that_the_first_drone_alone_cannot_film_is_not_given_to_it() -> None:
+    """The first drone is too slow for the target, so the shot does not even resolve with it."""
+    car = "car: {track: {start: [0, 0, 0.8], velocity: [5, 0, 0]}, radius: 1, height: 1.6}"
+    text = LENSES.replace("camera: {hfov: 20 deg}", "limits: {speed: 2 m/s}")
+    text = text.replace("targets: {", f"targets: {{{car}, ")
+    text += (
+        "  - {id: car, kind: chase, drone: auto, target: car, distance: 15, altitude: 5,\n"
+        "     timing: {start: 30, duration: 8}}\n"
+    )
+    drones, codes = chosen(text)
+    assert drones["car"] == "far"
+    assert codes == []
+
+
+def test_as_few_shots_as_possible_go_to_drones_that_cannot_film_them() -> None:
+    """Two shots at a time, one drone that can film both: the other one gets the shorter way."""
+    refused = {"cam2": Diagnostic("G010", "does not fit"), "cam3": Diagnostic("G010", "does not fit")}
+    tasks = [task(i, 60.0, 10.0, 20.0 * i, 0.0)._replace(refused=refused) for i in range(2)]
+    found = choose(tasks, tuple(DRONES))
+    assert found is not None
+    assert sorted(found.values())[0] == "cam1"
+    assert len(set(found.values())) == 2
