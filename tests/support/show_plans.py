@@ -42,9 +42,9 @@ def fleet(pads: tuple[tuple[float, float, float], ...] = PADS, name: str = "swar
 def display(name: str = "globe", of: str = "swarm", index: int = 0) -> Display:
     path = ("shots", index)
     pictures = (
-        Picture(Sphere((6.0, 0.0, HIGH), 6.0), "surface", None, None, 4.0, (*path, "frames", 0)),
+        Picture(Sphere((6.0, 20.0, HIGH), 8.0), "surface", None, None, 4.0, (*path, "frames", 0)),
         Picture(
-            Torus((6.0, 0.0, HIGH), 5.0, 1.0, 0.0, 0.5),
+            Torus((6.0, 20.0, HIGH + 2.0), 5.0, 1.0, 0.0, 0.5),
             "volume",
             (255, 128, 0),
             6.0,
@@ -108,10 +108,10 @@ def _shown(shot: str) -> tuple[FrameTimes, ...]:
 
 
 def _lights(n: int) -> Lights:
-    colors = np.zeros((n, 2, 3), dtype=np.uint8)
-    colors[:, 0] = (255, 255, 255)
-    colors[:, 1] = (255, 128, 0)
-    return Lights(np.array([16.0, 26.0]), colors)
+    colors = np.zeros((n, 4, 3), dtype=np.uint8)
+    colors[:, :2] = (255, 255, 255)
+    colors[:, 2:] = (255, 128, 0)
+    return Lights(np.array([16.0, 20.0, 26.0, 28.0]), colors)
 
 
 def show(asked: MissionIR | None = None) -> TrajectoryIR:

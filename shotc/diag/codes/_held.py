@@ -1,4 +1,4 @@
-"""V040 to V046: a plan file whose contents contradict its own trajectory or its mission."""
+"""V040 to V046, V063, V064: a plan file whose contents contradict its own trajectory or its mission."""
 
 from __future__ import annotations
 
@@ -58,6 +58,16 @@ HELD: tuple[CodeInfo, ...] = (
             "room the fleet goes on to its next stop and turns there, or goes back as it came. Here all three break a "
             "limit of the mission, which the note names with its value: often the endurance, late in a show. Give the fleet more "
             "room, time or distance, and plan again.",
+        ),
+    ),
+    verified(
+        64,
+        "picture-not-as-asked",
+        (
+            "a fleet shows another picture than the mission asks for",
+            "While a picture stands, its lights have the colour that the mission states (white for a shape without one), to one "
+            "level of 255, and no more than 95 % of a fleet are dark. The colours of a file without `color` are "
+            "not judged, since a plan does not hold the file. Plan the mission again.",
         ),
     ),
     verified(

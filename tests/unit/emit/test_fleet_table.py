@@ -90,8 +90,8 @@ def test_places_on_the_earth() -> None:
 
 def test_lights_fade_between_their_times() -> None:
     at = {float(row["t_s"]): [int(row[c]) for c in ("red", "green", "blue")] for row in ROWS[:231]}
-    assert at[0.0] == at[16.0] == [255, 255, 255]
-    assert at[21.0] == [255, 192, 128]
+    assert at[0.0] == at[20.0] == [255, 255, 255]
+    assert at[23.0] == [255, 192, 128]
     assert at[26.0] == at[46.0] == [255, 128, 0]
 
 

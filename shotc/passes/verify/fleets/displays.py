@@ -22,6 +22,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
+from shotc.passes.verify.fleets.lights import lights
 from shotc.passes.verify.fleets.standing import frames_of, standing
 
 LEAST_WAY_M = 0.05
@@ -44,6 +45,7 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _pictures(flight, display, flown[0], frames)
             known = [s for s in frames if s.picture in range(len(display.pictures))]
             yield from standing(flight.fleet.name, display, flown[0], known)
+            yield from lights(flight, display, known)
             yield from _transitions(flight, display, frames)
             yield from _waves(flight, display, frames)
             yield from _holds(flight, display, frames)

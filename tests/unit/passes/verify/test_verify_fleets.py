@@ -83,7 +83,8 @@ def test_a_sound_show_is_verified() -> None:
         "distance from home", "rate at start and end", "endurance", "speed", "climb", "descent",
         "acceleration", "jerk", "ground clearance", "drift from the vertical", "depth below home",
         "times flown", "pictures left out", "pictures out of order", "lack of hold", "excess of hold",
-        "display without a picture", "error of transition", "drift at rest", "separation",
+        "display without a picture", "light off its colour", "dark lights of a picture",
+        "error of transition", "drift at rest", "separation",
     }  # fmt: skip
     for c in verdict.certificate:
         assert rule_of(c.constraint, mission()).code in registry()
@@ -271,7 +272,8 @@ def test_time_on_the_pad_is_no_flight() -> None:
     moved = [replace(p, start=p.start + 10, end=p.end + 10) for p in SHOW.fleets[0].phases]
     moved[0], moved[-1] = replace(moved[0], start=0.0), replace(moved[-1], end=float(longer[-1]))
     shown = tuple(replace(s, start=s.start + 10, end=s.end + 10) for s in SHOW.fleets[0].shown)
-    ir = with_flight(coef=waits, breaks=longer, phases=tuple(moved), shown=shown)
+    lights = replace(SHOW.fleets[0].lights, times=SHOW.fleets[0].lights.times + 10)
+    ir = with_flight(coef=waits, breaks=longer, phases=tuple(moved), shown=shown, lights=lights)
     assert codes(ir) == []
     assert claims(ir)["endurance"].worst == float(breaks[-1])
 

@@ -179,7 +179,8 @@ def test_a_wave_is_flown_as_it_was_proved_and_nothing_bends_it() -> None:
     assert flight.shown[1].start - flight.shown[0].end == pytest.approx(16.0, abs=1e-6)
     at = places(flight.breaks, flight.coef, np.array([89.9, 90.0, 92.0]))
     assert np.ptp(at, axis=1).max() < 1e-3
-    assert all(claim.holds for claim in verdict_on(done.value).certificate)
+    # Lattices in one colour stand in the place of the pictures.
+    assert {d.code for d in verdict_on(done.value).diagnostics} <= {"V064"}
 
 
 @pytest.mark.slow

@@ -33,8 +33,8 @@ def flown(made: VerifiedIR, times: np.ndarray, number: int = 0) -> np.ndarray:
 
 
 def shone(times: np.ndarray) -> np.ndarray:
-    """Colours (T, 3) of every drone: white to 16 s, orange from 26 s, linear between."""
-    share = np.clip((times - 16.0) / 10.0, 0.0, 1.0)[:, None]
+    """Colours (T, 3) of every drone: white to 20 s, orange from 26 s, linear between."""
+    share = np.clip((times - 20.0) / 6.0, 0.0, 1.0)[:, None]
     return np.array([255.0, 255.0, 255.0]) + share * np.array([0.0, -127.0, -255.0])
 
 
