@@ -16,6 +16,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.effects import Color
 from shotc.ir.fleet import Colors, FrameTimes, Lights
 from shotc.ir.light_colors import faded_colors, shown_share
+from shotc.ir.light_paints import Levels
 from shotc.ir.show import Display, Drawing, Model, Picture, RecordedFlight
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, WorstValue, held
@@ -43,7 +44,8 @@ def asked_color(picture: Picture) -> Color | None:
 def shining(flight: FleetFlight, stand: FrameTimes) -> NDArray[np.bool_]:
     """Return which drones show a picture all the while it stands, shape (n,)."""
     colors, shares = _during(flight.track.lights, stand)
-    return np.asarray(colors.any(axis=2).all(axis=1) if shares is None else (shares == 1.0).all(axis=1))
+    shown = np.any(colors, axis=2) if shares is None else np.asarray(shares == 1.0)
+    return np.asarray(np.all(shown, axis=1))
 
 
 def lights(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
@@ -86,12 +88,12 @@ def _off(flight: FleetFlight, stand: FrameTimes, asked: Color) -> Array:
     A drone that does not show the picture is to be black.
     """
     colors, shares = _during(flight.track.lights, stand)
-    shows = colors.any(axis=(1, 2)) if shares is None else (shares > 0.0).any(axis=1)
+    shows = np.asarray(np.any(colors, axis=(1, 2)) if shares is None else np.any(shares > 0.0, axis=1))
     wanted = np.where(shows[:, None], np.array(asked, dtype=np.float64), 0.0)
     return np.asarray(np.abs(colors - wanted[:, None]).max(axis=(1, 2)))
 
 
-def _during(lights: Lights, stand: FrameTimes) -> tuple[Colors, Array | None]:
+def _during(lights: Lights, stand: FrameTimes) -> tuple[Colors, Levels | None]:
     """Return the colours (n, T, 3) without effects at all times that tell them while a picture stands.
 
     Between these times they are linear. The second value, of a fleet with effects, is each drone's share in
