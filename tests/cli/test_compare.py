@@ -21,7 +21,7 @@ from tests.support.plugin_distributions import lay, refiner
 pytestmark = pytest.mark.slow
 
 ALONG = "from tests.support.bad_refiners import along, bumped"
-BENT = (ALONG, "return Outcome(bumped(path, 'pass', along(3, 0.2)))")
+BENT = (ALONG, "return Outcome(bumped(path, 'pass', along(4, 0.2)))")
 FAILING = ("raise RuntimeError('no camera')",)
 SHORT = (ALONG, "return Outcome(bumped(path, 'pass', along(0, 40)))")
 PROMISE = "    require: {screen_error: 0.05}\n"
