@@ -20,7 +20,7 @@ NEARLY_SHARE = 0.999  # share of each limit that is used, as a margin for roundi
 class Bound:
     """A place p_W in metres that the author gave, where the camera is from ``start`` to ``end``, seconds.
 
-    index : number of its keyframe in the shot
+    index : number of its keyframe in the shot, -1 if it belongs to none
     """
 
     index: int

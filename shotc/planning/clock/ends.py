@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shotc.geom.vec import Vec3
 from shotc.ir.drone import Drone
 from shotc.ir.mission import Shot
 from shotc.planning.clock.aims import CameraTask
@@ -17,17 +18,26 @@ from shotc.planning.free_space import FreeSpace
 MOST_ASIDES = 2  # searches for a place of rest aside
 
 
+class Departure(NamedTuple):
+    """Where and when a run-up begins: a place in W, metres, and a mission time, seconds."""
+
+    place: Vec3
+    time: float
+
+
 class EndRequirement(NamedTuple):
     """Requirements on the ends of a motion.
 
     stand : seconds that the drone may stand there with all clearances
     longer : durations of run-up and run-out over the least ones
     ends_aside : whether the run-up and the run-out lead to where nothing passes
+    begins : the beginning of the run-up; None if it is free
     """
 
     stand: float
     longer: float
     ends_aside: tuple[bool, bool] = (False, False)
+    begins: Departure | None = None
 
 
 END_REQUIREMENTS = (
@@ -68,6 +78,8 @@ def run_up_and_out(
         run_up.lasting(required.longer)
         for run_up in run_ups(camera_task.mission, camera_task.drone, shot, start)
     )
+    if required.begins is not None:
+        before = before.begun(np.array(required.begins.place), start - required.begins.time)
     if required.ends_aside[0]:
         before = _led(before, -1.0, start, around, camera_task.drone)
     if required.ends_aside[1]:

@@ -7,7 +7,7 @@ here, in the same way as in the time pass.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from math import inf
 from typing import NamedTuple
@@ -22,7 +22,14 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
 from shotc.planning.clock.detours import Meanwhile, Transit, ways_home, ways_to
-from shotc.planning.clock.ends import ASIDES, END_REQUIREMENTS, FROM_AFAR, EndRequirement, leading_aside
+from shotc.planning.clock.ends import (
+    ASIDES,
+    END_REQUIREMENTS,
+    FROM_AFAR,
+    Departure,
+    EndRequirement,
+    leading_aside,
+)
 from shotc.planning.clock.flights import flight
 from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import NoMotion, OtherVehicles, timed_shot
@@ -35,10 +42,13 @@ from shotc.planning.clock.starts import (
     Reached,
     TooLate,
     inside,
+    later,
     outside,
     put_off,
     straight_lateness,
+    too_late,
     tracks_begin,
+    without_stop,
 )
 from shotc.planning.path.legs import (
     LegContext,
@@ -54,8 +64,6 @@ from shotc.planning.path.shots import Failure, PlannedShot
 from shotc.planning.timing.timed_leg import leg_time
 from shotc.rounding import up
 
-LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
-"""Seconds by which a start is put off, to find a motion or a transfer to it."""
 LATE_S = 1e-6  # seconds
 AMPLE_RATIO = 1.5  # time that a transfer without a deadline may take, over its direct duration
 
@@ -260,19 +268,21 @@ class Itinerary:
             reached = self._put_off(placed, start)
             if isinstance(reached, Reached):
                 film_start = reached.shot.leg.start
-                later = inside(self.mission, self.flight.space, placed, film_start)
-                reached = self._put_off(placed, later) if later > film_start else reached
+                entry = inside(self.mission, self.flight.space, placed, film_start)
+                reached = self._put_off(placed, entry) if entry > film_start else reached
             elif isinstance(reached, NoMotion):
-                reached = self._later(placed, start) or reached
+                reached = later(self._reached, placed, start) or reached
         else:
             reached = self._reached(placed, fixed)
+            if isinstance(reached, Reached) and reached.late > LATE_S:
+                reached = self._without_stop(reached) or reached
         if not isinstance(reached, Reached):
             return reached
         trouble = self._late(placed, reached)
         if trouble is not None:
             return trouble
         if not reached.transfer.clear and (fixed is None or reached.transfer.met is not None):
-            freer = self._later(placed, reached.shot.leg.start)
+            freer = later(self._reached, placed, reached.shot.leg.start)
             if fixed is None:
                 reached = freer or reached
             if reached.transfer.met is not None:
@@ -307,26 +317,9 @@ class Itinerary:
         return self._too_late(reached, first, short)
 
     def _too_late(self, requested: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
-        """Return the failure of a shot that the drone reaches too late.
-
-        first : the same shot at its earliest feasible start, or at the last start that was tried
-        """
-        leg, there = first.shot.leg, first.late <= LATE_S
-        path = TimedPath(self.drone.name, (*self.legs, *first.transfer.legs, leg))
-        flown = flight(self.mission, path, dict(self.ends))
-        before = [phase for phase in flown.phases if phase.end <= leg.start + LATE_S]
-        if not there:
-            before[-1] = replace(before[-1], end=leg.start + first.late)
-        run_up = leg.start - float(leg.curve.start)
-        return TooLate(requested.late, leg.start if there else None, short, tuple(before), run_up)
-
-    def _later(self, placed: PlacedShot, start: float) -> Reached | None:
-        """Return the shot at the first of some later starts to which there is a clear transfer."""
-        for more in LATER_S:
-            reached = self._reached(placed, start + more)
-            if isinstance(reached, Reached) and reached.late <= 0.0 and reached.transfer.clear:
-                return reached
-        return None
+        """Return the failure of a shot that the drone reaches too late; arguments as of ``too_late``."""
+        path = TimedPath(self.drone.name, (*self.legs, *first.transfer.legs, first.shot.leg))
+        return too_late(flight(self.mission, path, dict(self.ends)).phases, requested, first, short)
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for a start, and the transfer to it, with the ends that suit it best."""
@@ -379,6 +372,14 @@ class Itinerary:
         if not isinstance(transfer, Transfer):
             return transfer
         return Reached(placed, shot, transfer, transfer.end - curve_start, requirements[0].ends_aside)
+
+    def _without_stop(self, late: Reached) -> Reached | None:
+        """Return a shot that is late, with a run-up from the end of the last leg, if it is in time then."""
+        lift = [] if self.legs else [take_off(self.flight, late.shot.leg.pose)]
+        x, y, z = end_of(lift or self.legs)[:3]
+        ready = self.clock + sum(leg_time(self.drone, leg) for leg in lift)
+        reach = partial(self._reached_as, late.placed, late.shot.leg.start)
+        return without_stop(self.mission, self.drone, late, reach, Departure((x, y, z), ready))
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
         """Plan a shot for the first start, from a given one on, that the drone reaches in time."""

@@ -246,18 +246,18 @@ def _base(task: ClockTask) -> SplineProblem:
     )
     rest = at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))
-    held = still if task.free else _through(task, still)
+    held = _through(task, still)
     return SplineProblem(count(breaks), goals, held, (), limits_of(task.drone.limits, breaks))
 
 
 def _through(task: ClockTask, rest: Equalities) -> Equalities:
-    """Return the constraints of rest at both ends, and of the keyframes' places at their times.
+    """Return the constraints of rest at both ends, and of given places at their times.
 
     Where the camera stands still in W for a while, all coefficients of that interval equal its place. For a
     hold beside a moving target the place is constrained at the start and at the end of the hold.
     """
     breaks, rows, values = task.clock.breaks, [rest.rows], [rest.value]
-    for bound in task.bound:
+    for bound in (*task.held, *(() if task.free else task.bound)):
         if bound.still:
             first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING_S)
             block = _coefficients(int(first), int(last) + DEGREE, len(breaks) - 1)

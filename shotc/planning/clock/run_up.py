@@ -58,6 +58,14 @@ class RunUp:
         """Return the run-up with its duration multiplied by ``times``."""
         return replace(self, seconds=times * self.seconds)
 
+    def begun(self, place: Array, seconds: float) -> RunUp:
+        """Return the run-up that begins at rest at a place, shape (3,), metres, and lasts some seconds.
+
+        It takes no less time than this one, which needs the least.
+        """
+        longer = replace(self, seconds=max(seconds, self.seconds), shift=np.ones(3))
+        return replace(longer, shift=place - (longer.rest - longer.shift))
+
     def led(self, shift: Array, limits: Limits) -> RunUp:
         """Return the run-up that ends shifted by ``shift``, shape (3,), metres, with the duration that this
         needs.

@@ -23,10 +23,10 @@ from shotc.ir.preference import noted
 from shotc.ir.setpoints import required_places
 from shotc.planning.clock.aims import CameraTask, camera_task_of
 from shotc.planning.clock.between import lacking_each
-from shotc.planning.clock.bounds import bounds_of
+from shotc.planning.clock.bounds import Bound, bounds_of
 from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock, clock_of
-from shotc.planning.clock.ends import END_REQUIREMENTS, EndRequirement, run_up_and_out
+from shotc.planning.clock.ends import END_REQUIREMENTS, Departure, EndRequirement, run_up_and_out
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
@@ -45,7 +45,8 @@ NOTICE_M = 0.5  # metres off the ideal, above which a deviation is reported
 LEFT_M = 0.1  # metres off the ideal, above which a sample belongs to a reported stretch
 LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # factors of the duration, tried if keyframes are out of reach
 ON_PLACE_M = 1e-3  # metres
-SAME_S = 1e-6  # seconds
+SAME_S, SAME_PLACE_M = 1e-6, 1e-9  # seconds, metres
+NO_KEYFRAME = -1  # index of a bound place that is no keyframe's
 SEEING_ROUNDS = 3  # rounds of leading the motion to where targets are visible
 STEP_S = 0.1  # seconds between samples of the deviation
 PICTURES = "the pictures of other drones"
@@ -248,11 +249,26 @@ def _task(
     motions = tuple(linearised(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, required.stand)
     bound = bounds_of(camera_task.mission, shot, start)
-    return led(
-        ClockTask(
-            camera_task, shot, clock, run_ups, spaces.flight, motions, passing, others.visibility, bound
-        )
+    task = ClockTask(
+        camera_task, shot, clock, run_ups, spaces.flight, motions, passing, others.visibility, bound
     )
+    return led(task if required.begins is None else replace(task, held=_held(task, required.begins)))
+
+
+def _held(task: ClockTask, begins: Departure) -> tuple[Bound, ...]:
+    """Return the places of a motion that begins where the drone is: that one, and the film's if its author
+    gave a standing camera. Otherwise that camera would still come to rest in the first frames.
+    """
+    shot, clock = task.shot, task.clock
+    begin = float(clock.breaks[0])
+    first = Bound(NO_KEYFRAME, begins.place, begin, begin)
+    if shot.ideal is None or not shot.ideal.placed:
+        return (first,)
+    places = ideal_places(task.mission, shot, clock.start, _filmed(task))
+    if np.ptp(places, axis=0).max() > SAME_PLACE_M:
+        return (first,)
+    x, y, z = map(float, places[0])
+    return first, Bound(NO_KEYFRAME, (x, y, z), clock.start, clock.end)
 
 
 def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -> Missed | None:

@@ -7,8 +7,8 @@ before. So a shot whose target approaches the drone begins when the target comes
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import inf
 
@@ -20,8 +20,11 @@ from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.phases import Phase
+from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import TargetConflict, Transfer
+from shotc.planning.clock.ends import Departure, EndRequirement
 from shotc.planning.clock.ideals import ideal_places
+from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import LESS_SHARE, NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
@@ -38,7 +41,10 @@ HORIZON_S = 300.0  # longest delay of a start, seconds
 FINE_S = 0.1  # seconds between the first candidates
 TRIES_PER_SCALE = 100  # candidates after which their spacing has doubled
 SHORTEST_S = 1.0  # least seconds of track for a shot
+LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
+"""Seconds by which a start is put off, to find a motion or a transfer to it."""
 ROUNDING_S = 1e-6  # seconds
+TURN_TRIES = 3  # departures that are tried until the turn before them is known
 SLIGHT_M = 0.02  # metres, tolerance of a deviation
 SOON_S, WHOLE_S = 40.0, 1.0
 """Longest delay of a start for a fence, and spacing of the candidates, seconds."""
@@ -117,6 +123,8 @@ Lateness = Callable[[float], float]
 """The drone's delay in seconds for a start."""
 Reach = Callable[[PlacedShot, float], Reached | ClockFailure]
 """Plans a shot for a start, and the transfer to it."""
+ReachFrom = Callable[[tuple[EndRequirement, ...]], Reached | ClockFailure]
+"""Plans a shot, and the transfer to it, with requirements on its ends."""
 
 
 def straight_lateness(mission: MissionIR, drone: Drone, shot: Shot, here: Array, ready: float) -> Lateness:
@@ -208,6 +216,61 @@ def put_off(
         if now is None:
             break
     return there or reached
+
+
+def later(reach: Reach, placed: PlacedShot, start: float) -> Reached | None:
+    """Return the shot at the first of some later starts to which there is a clear transfer."""
+    for more in LATER_S:
+        reached = reach(placed, start + more)
+        if isinstance(reached, Reached) and reached.late <= 0.0 and reached.transfer.clear:
+            return reached
+    return None
+
+
+def without_stop(
+    mission: MissionIR, drone: Drone, late: Reached, reach: ReachFrom, departure: Departure
+) -> Reached | None:
+    """Return a shot that is late with a run-up that begins where the drone is, so that it does not stop on
+    the way.
+
+    The result is None if it is late as well, if it lacks clearances of transfers, or if its film differs by
+    more than a preference may cost. Where the author gave the place, it may not differ.
+
+    reach : plans the shot and the transfer to it, which then only turns the drone
+    departure : where the drone is, and when it can leave
+    """
+    camera_task, leg = CameraTask(mission, drone, late.placed.subjects), late.shot.leg
+    ideal = late.placed.shot.ideal
+    for _ in range(TURN_TRIES):
+        reached = reach((EndRequirement(0.0, 1.0, begins=departure),))
+        if not isinstance(reached, Reached) or reached.transfer.met is not None:
+            return None
+        if max(reached.shot.lacks) > max(SLIGHT_M, *late.shot.lacks):
+            return None
+        if reached.late <= ROUNDING_S:
+            placed = ideal is not None and ideal.placed
+            off = reached.shot.off - late.shot.off
+            film = cost(camera_task, (leg.start, leg.end), leg.curve, reached.shot.leg.curve)
+            return reached if (off <= SLIGHT_M if placed else film.little) else None
+        # The turn towards the first pose takes that long.
+        departure = departure._replace(time=departure.time + reached.late + ROUNDING_S)
+    return None
+
+
+def too_late(
+    phases: Iterable[Phase], requested: Reached, first: Reached, short: OutsideTrack | None
+) -> TooLate:
+    """Return the failure of a shot that its drone reaches too late.
+
+    phases : of the drone with the shot at its earliest feasible start, or at the last start that was tried
+    first : the shot then
+    """
+    leg, there = first.shot.leg, first.late <= ROUNDING_S
+    before = [phase for phase in phases if phase.end <= leg.start + ROUNDING_S]
+    if not there:
+        before[-1] = replace(before[-1], end=leg.start + first.late)
+    run_up = leg.start - float(leg.curve.start)
+    return TooLate(requested.late, leg.start if there else None, short, tuple(before), run_up)
 
 
 def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, float]) -> float | None:

@@ -39,6 +39,7 @@ class ClockTask:
     visibility : pictures of others that count
     bound : places that it passes at given times
     free : whether ``bound`` is ignored
+    held : other places that it passes, always
     apart : half-spaces for the clearances of transfers in run-up and run-out
     course : initial guess at the clock's breaks, for corridors; the ideal where it is None
     """
@@ -53,6 +54,7 @@ class ClockTask:
     visibility: Visibility
     bound: tuple[Bound, ...] = ()
     free: bool = False
+    held: tuple[Bound, ...] = ()
     apart: tuple[HalfSpaceRows, ...] = ()
     course: VisiblePath | None = None
 
