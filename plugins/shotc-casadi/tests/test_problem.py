@@ -38,11 +38,12 @@ def test_margins_narrow_the_limits_and_the_room():
 
 
 def test_a_camera_fixed_to_the_body_turns_no_faster_than_the_body():
-    made = task(arc())
-    limits, gimbal = arc().drone.limits, arc().drone.gimbal
-    assert arc().drone.body == "follow-camera"
-    assert made.state_bounds[1][0, YAW + 1] == pytest.approx(arc().leg.pace * limits.yaw_rate)
-    loose = subject(mission(targets=(TOWER,), body="free"), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
+    fixed, loose = (
+        subject(mission(targets=(TOWER,), body=body), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
+        for body in ("follow-camera", "free")
+    )
+    limits, gimbal = fixed.drone.limits, fixed.drone.gimbal
+    assert task(fixed).state_bounds[1][0, YAW + 1] == pytest.approx(fixed.leg.pace * limits.yaw_rate)
     assert task(loose).state_bounds[1][0, YAW + 1] == pytest.approx(
         loose.leg.pace * (limits.yaw_rate + gimbal.rate)
     )
