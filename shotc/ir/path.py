@@ -197,6 +197,7 @@ _Deviation = TypeVar("_Deviation", PathDeviation, ClockDeviation, Deviation)
 
 LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
 SIGHT = "what would hide the subject"
+CORNERS, SHARP = "the turns at its points", "turns too sharp for its legs"
 """Causes that are neither an obstacle nor another drone's picture."""
 
 

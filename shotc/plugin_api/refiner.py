@@ -60,6 +60,7 @@ from shotc.planning.clock.surroundings import Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, corridor, kept, shortfall
 from shotc.planning.obstacles import flight_space
+from shotc.planning.path.drawn import DrawnPath, drawn_path
 from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.turns import steady
@@ -96,6 +97,7 @@ __all__ = [
     "Cylinder",
     "CylinderShape",
     "Deviation",
+    "DrawnPath",
     "Drone",
     "DroneTrajectory",
     "Fit",
@@ -133,6 +135,7 @@ __all__ = [
     "corridor",
     "coverage",
     "distances",
+    "drawn_path",
     "fit",
     "flight_space",
     "flights",

@@ -23,8 +23,13 @@ AMPLE_SHARE = 0.8  # of the time asked for: a rough profile this fast needs no c
 
 
 def checked(subject: ShotContext, condition: AimCondition, camera: Piecewise) -> Check:
-    """Return the errors of a camera: unproved clearance, lateness, hidden and cropped targets."""
+    """Return the errors of a camera: unproved clearance, lateness, hidden and cropped targets.
+
+    A drawn path that it leaves counts as unproved clearance.
+    """
     lack = float(shortfall(subject.space, camera.ctrl[:, :, :3]).max())
+    if subject.drawn is not None:
+        lack = max(lack, subject.drawn.excess(camera.channels(0, 1, 2)))
     looks = condition.visibility == "silhouette"
     hidden = lost_on_path(subject, camera) if looks else 0.0
     out = cropped(subject, camera) if looks else 0.0

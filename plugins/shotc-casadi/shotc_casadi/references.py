@@ -20,6 +20,7 @@ from shotc.plugin_api.refiner import (
     CAM_YAW,
     HFOV,
     Array,
+    DrawnPath,
     Drone,
     FreeSpace,
     PlacedKeyframe,
@@ -30,6 +31,7 @@ from shotc.plugin_api.refiner import (
     steady,
 )
 from shotc_casadi.conditions import AimCondition
+from shotc_casadi.drawn import drawn_by
 from shotc_casadi.extents import EXTENT_PARAMETERS, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
@@ -68,6 +70,7 @@ class ShotContext(NamedTuple):
     """A shot to refine: the mission, its drone, the free space, its keyframes and its leg.
 
     beside : half-spaces that keep it clear of moving obstacles, None if there are none
+    drawn : the path that its author draws, None if there is none
     """
 
     mission: MissionIR
@@ -76,6 +79,7 @@ class ShotContext(NamedTuple):
     placed: PlacedShot
     leg: MovingLeg
     beside: Beside | None = None
+    drawn: DrawnPath | None = None
 
 
 def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> ShotContext:
@@ -83,7 +87,8 @@ def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> ShotContext:
     mission = path.keyframes.mission
     flown_by = mission.drone(drone)
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == leg.shot)
-    return ShotContext(mission, flown_by, flight_space(mission, flown_by), placed, leg)
+    space, drawn = flight_space(mission, flown_by), drawn_by(placed, leg)
+    return ShotContext(mission, flown_by, space, placed, leg, drawn=drawn)
 
 
 def references_at(subject: ShotContext, condition: AimCondition, s: Array) -> References:

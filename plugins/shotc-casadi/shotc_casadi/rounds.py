@@ -13,6 +13,7 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
 from shotc_casadi.conditions import AimCondition
+from shotc_casadi.drawn import beside_legs
 from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import first_margins, next_margins
 from shotc_casadi.horizon import Solver
@@ -115,7 +116,9 @@ def _refine(
 
 def _walls(subject: ShotContext, nodes: Stages, margins: Margins) -> Array:
     """Return the half-spaces of the nodes."""
-    others = None if subject.beside is None else subject.beside(nodes.s)
+    others = [] if subject.beside is None else [subject.beside(nodes.s)]
+    if subject.drawn is not None:
+        others.append(beside_legs(subject.drawn, nodes.s, subject.leg.curve(nodes.s)[:, :3]))
     return half_spaces(subject.space, subject.leg.curve, nodes, margins, others)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,14 +25,18 @@ class NodePlanes(NamedTuple):
 
 
 def half_spaces(
-    space: FreeSpace, reference: Piecewise, stages: Stages, margins: Margins, others: NodePlanes | None = None
+    space: FreeSpace,
+    reference: Piecewise,
+    stages: Stages,
+    margins: Margins,
+    others: Sequence[NodePlanes] = (),
 ) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
     They are the nearest ones of each node. M is the same for all nodes; unused rows hold everywhere.
 
     margins : comfort and reach
-    others : additional half-spaces beside moving obstacles
+    others : additional half-spaces, beside moving obstacles and drawn paths
     """
     s, share = stages.s, margins.comfort
     low = np.concatenate([s[:1], s[:-1]])
@@ -48,8 +53,9 @@ def half_spaces(
             for row in _bounds(space, hull, share)
             if (slack := _slack(hull, row)) < margins.reach
         ]
-    for k, row in zip(*((), ()) if others is None else others, strict=True):
-        nodes[int(k)].append((_slack(hulls[k], row), row))
+    for more in others:
+        for k, row in zip(*more, strict=True):
+            nodes[int(k)].append((_slack(hulls[k], row), row))
     most = max(len(node) for node in nodes)
     count = next((c for c in COUNTS if c >= most), COUNTS[-1])
     out = np.zeros((len(s), count, 4))

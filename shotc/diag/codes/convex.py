@@ -122,11 +122,12 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         6,
         "path-moved",
-        "a path that a kind generates leaves its ideal, because something is in the way",
+        "a path that a kind generates or draws leaves its ideal, because something is in the way",
         "What an orbit, a crane or another kind generates is an ideal: where it runs through a zone, a "
         "target or beyond a keep-in border, the path leads round, as near to the ideal as smoothness "
-        "allows. The warning says how far it strays and where. Keyframes that you place yourself are "
-        "never moved.",
+        "allows. So do the lines between the points of a `follow-path`, which also bow out beside corners too "
+        "sharp for their legs. The warning says how far the path strays and where. Keyframes that you place "
+        "yourself are never moved.",
         ("center: [38, -20], radius: 1", "center: [30.6, 40.6], radius: 1"),
         severity=Severity.WARNING,
     ),

@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.drawn import is_drawn
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.path import ClockDeviation, PathIR, filmed
+from shotc.ir.path import CORNERS, ClockDeviation, PathDeviation, PathIR, filmed
 from shotc.passes.refine_path.finding import RefinerFault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept_convex, same
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
+from shotc.passes.solve_path_qp.explain.path import moved
 
 OF_THE_CONVEX = ("Q007",)
 """Warnings about framing on the convex path; verification reports on a refined path instead."""
@@ -19,6 +22,9 @@ TOO_SHORT, POSSIBLE = "T001", "the shortest possible"
 """The error of an infeasible duration, and its phrase for the least feasible one."""
 
 KEEP = "plan with `--refiner none`, or let all shots that are refined say `refine: {optional: true}`"
+OF_A_PATH = "Q006"
+"""The warning about a path that leaves its ideal; a refined one leaves the lines of a drawn path by another
+distance."""
 OF_THE_GUIDE = "M008"
 """The warning about the deviation of a shot on its own clock; a refined shot has another deviation."""
 
@@ -82,23 +88,38 @@ def shortest_refined(
 def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
     """Return the diagnostics without warnings about convex legs that are not flown; paths as in ``blame``.
 
-    Where a guide left its ideal and was refined, the deviation of the refined motion is reported instead.
+    Where a guide left its ideal, or a drawn path its lines, and was refined, the deviation of the refined
+    motion is reported instead.
     """
     before, after = paths
     mission = before.keyframes.mission
     refined = {shot.id for shot in _refined(paths)}
     find = mission.origins.key
     over = {find(k.path).span for p in before.keyframes.shots if p.shot.id in refined for k in p.keyframes}
+    drawn = {
+        find(p.shot.path).span: p for p in before.keyframes.shots if p.shot.id in refined and is_drawn(p.shot)
+    }
     untrue = {
         id(d)
         for d in diagnostics
         if (d.code in OF_THE_CONVEX and d.labels[0].span in over)
         or (d.code == OF_THE_GUIDE and _of(mission, d) in refined)
+        or (d.code == OF_A_PATH and d.labels[0].span in drawn)
     }
     guided = {_of(mission, d) for d in diagnostics if id(d) in untrue and d.code == OF_THE_GUIDE}
     on_clock = (d for d in after.deviations if isinstance(d, ClockDeviation))
     anew = left_places(mission, (d for d in on_clock if d.shot in guided))
-    return (*(d for d in diagnostics if id(d) not in untrue), *anew)
+    off_lines = (d for placed in drawn.values() for d in _off_lines(after, placed))
+    return (*(d for d in diagnostics if id(d) not in untrue), *anew, *off_lines)
+
+
+def _off_lines(path: PathIR, placed: PlacedShot) -> list[Diagnostic]:
+    """Return the warnings of a drawn shot that leaves its lines for something else than its turns."""
+    return [
+        moved(path.keyframes.mission, placed, d)
+        for d in path.deviations
+        if d.shot == placed.shot.id and isinstance(d, PathDeviation) and d.cause != CORNERS
+    ]
 
 
 def _of(mission: MissionIR, diagnostic: Diagnostic) -> str | None:

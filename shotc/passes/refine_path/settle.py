@@ -27,6 +27,7 @@ from shotc.ir.path import (
 )
 from shotc.passes.refine_path.ask import RefinerAnswer
 from shotc.passes.refine_path.clocked import on_clock
+from shotc.passes.refine_path.drawn import measured
 from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, error_of
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.limits import limits
@@ -48,7 +49,7 @@ def settle(before: PathIR, seat: Seat, answer: RefinerAnswer) -> Outcome[PathIR]
     optional = {shot.id for shot in shots if shot.refine_optional}
     if concerned <= optional:
         told_of = (kept_convex(before, seat, name, faults) for name in sorted(concerned))
-        return Outcome(path, (*answer.warnings, *told_of))
+        return Outcome(path if path is before else measured(path), (*answer.warnings, *told_of))
     errors = dict.fromkeys(fault.diagnostic for fault in faults if fault.shot not in optional)
     return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.diagnostic for fault in faults))))
 

@@ -19,7 +19,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import ClockLeg, Deviation, DronePath, Leg, PathIR, PathLeg, TimedPath
+from shotc.ir.path import CORNERS, ClockLeg, Deviation, DronePath, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.place_keyframes.keyed import misplaced
 from shotc.passes.solve_path_qp.explain.on_clock import left_places, stopped_on_clock
@@ -239,7 +239,7 @@ def _curves(
 
 def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[PlannedShot]) -> tuple[Diagnostic, ...]:
     return (
-        *(moved(mission, s.shot, d) for s in shots for d in s.deviations),
+        *(moved(mission, s.shot, d) for s in shots for d in s.deviations if d.cause != CORNERS),
         *(cut_framing(mission, drone, s.shot, s.cuts) for s in shots if s.cuts),
         *(swings(mission, s.shot, s.swing) for s in shots if s.swing is not None),
     )

@@ -14,14 +14,15 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.pieces import cut
-from shotc.geom.proof import norm, sup_convex
+from shotc.geom.chord import sup_off_chord
+from shotc.geom.proof import norm
 from shotc.geom.solids import distance, signed_distance
+from shotc.ir.drawn import half_widths, is_drawn
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.preference import PICTURE_SHARE
-from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S
+from shotc.ir.tolerances import BOW_SHARE, ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, gap
 from shotc.passes.verify.explained import (
@@ -129,15 +130,20 @@ def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR)
 
 
 def _swing(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
-    """Yield the claim that the path between placed keyframes stays near the chord where it is free."""
+    """Yield the claim that the path between placed keyframes stays near the chord where it is free.
+
+    On a path that the author draws, near is the half-width of each leg.
+    """
     keyframes, shot = placed.keyframes, placed.shot
     at = np.array([k.at for k in keyframes])
     lengths = norm(np.diff(at, axis=0))
+    drawn = half_widths([k.at for k in keyframes]) if is_drawn(shot) else None
     swings: list[tuple[float, float, WorstValue]] = []
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
-        most = SWING_SHARE * longest + UNREPORTED_M + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
+        near = SWING_SHARE * longest + UNREPORTED_M if drawn is None else drawn[i] + ON_PLACE
+        most = near + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
         worst = _off_chord(flight, times, ends, most)
         swings.append((worst.value / most, most, worst))
     if swings:
@@ -157,16 +163,9 @@ def _off_chord(
     flight: JudgedFlight, times: tuple[float, float], ends: tuple[Array, Array], most: float
 ) -> WorstValue:
     """Return how far the flight is from the chord between two keyframes; most : limit, metres."""
-    first, along = ends[0], ends[1] - ends[0]
-    length = float(np.linalg.norm(along))
     if times[1] <= times[0]:
         return WorstValue(0.0, times[0])
-
-    def off(points: Array) -> Array:
-        share = np.clip((points - first) @ along / max(length * length, 1e-12), 0.0, 1.0)
-        return norm(points - first - share[..., None] * along)
-
-    bound = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(most))
+    bound = sup_off_chord(flight.track.curve.channels(0, 1, 2), times, ends, gap(most))
     return WorstValue(bound.proven, bound.at)
 
 

@@ -9,6 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.measures import SHARES, distinct_measures, enough
 from shotc.ir.mission import Shot
 from shotc.ir.owners import owner_of
+from shotc.ir.path import CORNERS
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.visible import AT_FIRST, AT_LAST, VISIBLE
 from shotc.rounding import at_least, rounded_outward
@@ -98,7 +99,7 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
 def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
     """Yield how far and why a shot's path leaves the one that its kind generates."""
     for deviation in ir.deviations:
-        if deviation.shot == shot:
+        if deviation.shot == shot and deviation.cause != CORNERS:
             owner = owner_of(ir.keyframes.mission, deviation.cause)
             cause = deviation.cause if owner is None else owner.words
             yield f"the shot leaves its ideal path by up to {at_least(deviation.distance)} m, round {cause}"

@@ -7,7 +7,7 @@ polyline is one straight line, which routing has found to be free, it is the cur
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.owners import Owner
 from shotc.planning.corridor import LinearisedCorridor, with_corridor
 from shotc.planning.free_space import FreeSpace, shortfall
+from shotc.planning.path.held import breaks_of, near_legs
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, least_of, minimise
@@ -55,6 +56,7 @@ class PolylineTask:
     pulled, pulled_at : points near which it should pass, and their parameters, shapes (G, 3) and (G,)
     pace : share of the limits at which it should be smooth
     pull : weight of a pulled point, over the energy in m^2
+    widths : how far the curve may be from each segment, shape (M - 1,), metres; None where all are free
     """
 
     corners: Array
@@ -64,6 +66,7 @@ class PolylineTask:
     pulled_at: Array
     pace: float
     pull: float = PULL_WEIGHT
+    widths: Array | None = None
 
     @property
     def straight(self) -> bool:
@@ -100,13 +103,21 @@ def solve_stretch(
     """Return the curve of one stretch, proved clear in a free space.
 
     wide : the same free space with larger clearances, which the curve keeps as far as the polyline does
+    Where no curve is within the widths of the stretch, it may leave them.
     """
     if stretch.straight:
         return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
+    solved = _solve(space, stretch, limits, wide)
+    if solved.curve is not None or stretch.widths is None:
+        return solved
+    return _solve(space, replace(stretch, widths=None), limits, wide)
+
+
+def _solve(space: FreeSpace, stretch: PolylineTask, limits: Limits, wide: FreeSpace | None) -> Solved:
     rounds = 0
     status, problem = Status.FAILED, None
     for finer in PIECE_FACTORS:
-        breaks = subdivide(stretch.s, PIECES_PER_CHORD * finer)
+        breaks = _breaks(stretch, finer)
         problem, best, used = _iterate((space, wide or space), stretch, limits, breaks)
         rounds += used
         if isinstance(best, SplineSolution):
@@ -119,6 +130,12 @@ def solve_stretch(
     owners = space.owners
     relaxation = relax(problem, len(owners)) if problem and status is Status.INFEASIBLE else None
     return Solved(None, status, float("nan"), rounds, relaxation, owners)
+
+
+def _breaks(stretch: PolylineTask, finer: int) -> Array:
+    if stretch.widths is None:
+        return subdivide(stretch.s, PIECES_PER_CHORD * finer)
+    return breaks_of(stretch.s, stretch.widths, PIECES_PER_CHORD, finer)
 
 
 def _line(stretch: PolylineTask) -> Piecewise:
@@ -189,6 +206,8 @@ def _base_problem(stretch: PolylineTask, limits: Limits, breaks: Array) -> Splin
     bound = list(stretch.bound)
     equalities = Equalities(value_rows(breaks, s[bound]), corners[bound])
     cones = _soft_limits(breaks, speed, limits, scale)
+    if stretch.widths is not None:
+        cones = (*cones, near_legs(breaks, s, corners, stretch.widths))
     return SplineProblem(count(breaks), tuple(goals), equalities, (), cones)
 
 

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
-from shotc.geom.sampling import worst_of_runs
+from shotc.ir.drawn import half_widths, is_drawn
 from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
-from shotc.ir.tolerances import BOW_SHARE
-from shotc.planning.free_space import FreeSpace, breaches
+from shotc.planning.free_space import FreeSpace
 from shotc.planning.path.angles import CameraLine, KeyedPath, UnreachableAngles, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
+from shotc.planning.path.deviations import deviations_of
 from shotc.planning.path.filmed_ahead import Faced, ahead_in, faced
 from shotc.planning.path.lines import SAME_PLACE_M, NoWay, Polyline, TooNear, line_beside, shot_line
 from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, PolylineTask, Solved, solve_stretch
@@ -29,10 +30,7 @@ from shotc.planning.timing.timed_leg import lateness
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
-NOTICE_M = 0.1  # metres off a generated keyframe, above which a deviation is reported
-COMPARED_PLACES = 65  # samples between two keyframes, for the comparison with their chord
 BETWEEN = "what lies between its keyframes"
-LEFT_M = 0.02  # metres off, above which a keyframe belongs to a reported run
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -137,7 +135,7 @@ def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) ->
     return PlannedShot(
         shot=placed,
         leg=leg,
-        deviations=_deviations(space, placed, keyed, SIGHT if line.drawn is not None else BETWEEN),
+        deviations=deviations_of(space, placed, keyed, SIGHT if line.drawn is not None else BETWEEN),
         cuts=camera.cuts,
         swing=worst_swing(mission, keyed, camera),
         stats=(*_stats(placed, solved, camera, whole), *turns_of(shot.id, camera.unsolved, headings)),
@@ -285,7 +283,19 @@ def _stretch(placed: PlacedShot, line: Polyline, first: int, last: int) -> Polyl
         pulled_at=np.array(pulled_at),
         pace=placed.shot.pace,
         pull=SIGHT_WEIGHT if line.attractors else PULL_WEIGHT,
+        widths=_widths(placed, line, first, last),
     )
+
+
+def _widths(placed: PlacedShot, line: Polyline, first: int, last: int) -> Array | None:
+    """Return how far a drawn path may be left on each segment from one corner to another; None if it is free.
+
+    A leg that leads round an obstacle is free.
+    """
+    if not is_drawn(placed.shot):
+        return None
+    own, ends = half_widths([k.at for k in placed.keyframes]), line.of[first : last + 1]
+    return np.array([own[a] if a >= 0 and b >= 0 else np.inf for a, b in pairwise(ends)])
 
 
 def _keyed(placed: PlacedShot, line: Polyline, curve: Piecewise) -> KeyedPath:
@@ -332,56 +342,6 @@ def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
         Mark(float(s), k.time, i, k.path)
         for i, (s, k) in enumerate(zip(keyed.s, placed.keyframes, strict=True))
     )
-
-
-class _Away(NamedTuple):
-    """The distance of a curve from a place of its path, metres, and the s of it."""
-
-    distance: float
-    s: float
-    place: Array
-
-
-def _deviations(
-    space: FreeSpace, placed: PlacedShot, keyed: KeyedPath, otherwise: str
-) -> tuple[PathDeviation, ...]:
-    """Return the worst deviation of each run of keyframes, and the worst one between two keyframes.
-
-    Between generated keyframes a path may bow out by a share of their distance.
-
-    otherwise : the cause where no obstacle is near the keyframe
-    """
-    points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
-    distances = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
-    deviations = [
-        _Away(float(distances[i]), float(keyed.s[i]), points[i])
-        for i in worst_of_runs(distances, LEFT_M, NOTICE_M)
-    ]
-    if not any(k.placed for k in placed.keyframes):
-        between = [_bowed(keyed, points, k) for k in range(len(points) - 1)]
-        worst = max(between, key=lambda one: one.distance)
-        if worst.distance > max([NOTICE_M, *(one.distance for one in deviations)]):
-            deviations = sorted([*deviations, worst], key=lambda one: one.s)
-    shot = placed.shot.id
-    return tuple(
-        PathDeviation(shot, one.distance, one.s, _cause(space, one.place, otherwise)) for one in deviations
-    )
-
-
-def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
-    """Return where the curve bows out the most from the chord after keyframe k, and by how much."""
-    s = np.linspace(keyed.s[k], keyed.s[k + 1], COMPARED_PLACES)
-    flown, along = keyed.position(s), points[k + 1] - points[k]
-    share = np.clip((flown - points[k]) @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
-    chord = points[k] + share[:, None] * along
-    off = np.linalg.norm(flown - chord, axis=1)
-    i = int(off.argmax())
-    return _Away(float(off[i]) - BOW_SHARE * float(np.linalg.norm(along)), float(s[i]), chord[i])
-
-
-def _cause(space: FreeSpace, point: Array, otherwise: str) -> str:
-    near = breaches(space, point)
-    return str(near[0].owner) if near else otherwise
 
 
 def _stats(

@@ -16,7 +16,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import GROUND, Owner, owner_of
-from shotc.ir.path import PathDeviation
+from shotc.ir.path import SHARP, PathDeviation
 from shotc.ir.terrain import Terrain
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import flight_space, pad_space
@@ -120,9 +120,18 @@ def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
 
 
 def moved(mission: MissionIR, shot: PlacedShot, deviation: PathDeviation) -> Diagnostic:
-    """Return the warning for a generated path that deviates from its ideal."""
+    """Return the warning for a generated path, or the legs of a drawn one, that leave their ideal."""
     where = f"{deviation.s:.1f} m along the shot"
     labels = [mission.origins.key(shot.shot.path, "the path leaves its ideal here")]
+    if deviation.cause == SHARP:
+        return Diagnostic(
+            "Q006",
+            f"shot `{shot.shot.id}` leaves the lines between its points by up to "
+            f"{at_least(deviation.distance)} m",
+            tuple(labels),
+            (f"the largest distance is {where}, where {deviation.cause} bow the path out",),
+            "move that corner away from what is near it, or round it by more points",
+        )
     owner = owner_of(mission, deviation.cause)
     if owner is not None:
         labels.append(_owner_label(mission, owner, "is in the way"))
