@@ -15,6 +15,7 @@ from tests.support.second_opinion.compiled import case_of
 from tests.support.second_opinion.judge import findings, judge
 from tests.support.second_opinion.mission import Mission
 from tests.support.second_opinion.reflight import reflights
+from tests.support.second_opinion.rules import claims_hold
 
 pytestmark = pytest.mark.slow
 
@@ -216,6 +217,13 @@ CLAIMED = {
 @pytest.mark.parametrize("rule", CLAIMED)
 def test_an_untrue_plan_is_seen(case: Case, rule: str) -> None:
     assert sees(edited(case, CLAIMED[rule]), rule)
+
+
+@pytest.mark.parametrize(("worst", "found"), [(5.0 - 2e-6, 0), (5.0 - 6e-6, 1)])
+def test_a_claim_holds_as_near_to_its_limit_as_the_page_says(case: Case, worst: float, found: int) -> None:
+    """A millionth of the limit of 5 m."""
+    edit = claim("ground clearance", limit=5.0, worst=worst)
+    assert len(list(claims_hold(edited(case, edit)))) == found
 
 
 ASKED = {

@@ -11,7 +11,7 @@ from tests.support.second_opinion.case import Case, Finding, Findings
 from tests.support.second_opinion.measures import Worst
 from tests.support.second_opinion.quantities import number
 
-SLACK = 1e-6  # SI units by which a limit may be exceeded: rounding
+SLACK = 1e-6  # of a limit, and of its unit, by which it may be exceeded: what ``outputs.md`` allows a claim
 EXACT = 1e-6  # by which a value that is claimed to be exact may differ, absolute and of the value
 
 
@@ -40,11 +40,15 @@ def claimed(case: Case, worst: Iterable[Worst]) -> Findings:
 
 
 def claims_hold(case: Case) -> Findings:
-    """No claim is broken by its own numbers, and its word ``holds`` is true."""
+    """No claim is broken by its own numbers, and its word ``holds`` is true: both as ``outputs.md`` says.
+
+    A transit that begins or ends at a shot nearer than its clearance reaches its limit there, as the page
+    defines the value, and the proved bound on it lies below.
+    """
     for claim in case.plan["certificate"]:
         worst, limit = float(claim["worst"]), float(claim["limit"])
         broken = (worst - limit) if claim["upper"] else (limit - worst)
-        rounding = 1e-9 * max(1.0, abs(limit)) if np.isfinite(limit) else 0.0
+        rounding = SLACK * max(1.0, abs(limit)) if np.isfinite(limit) else 0.0
         says = claim["holds"]
         if (broken > rounding and (says or claim["hard"])) or (broken < -rounding and not says):
             yield Finding(f"holds: {claim['constraint']}", claim["subject"], worst, limit, claim["time"])
