@@ -25,7 +25,7 @@ FILMED = [
     for path in sorted(ROOT.glob("specs/*.yaml"))
     if "fleets" not in yaml.safe_load(path.read_text(encoding="utf-8"))
 ]
-FEW = (1, 7, 12)  # quick ones, of one drone to three
+FEW = (1, 7, 12, 330)  # quick ones, of one drone to three; the last one looks through a long lens from near
 MANY = range(300, 400)
 
 

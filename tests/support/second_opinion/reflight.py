@@ -153,18 +153,17 @@ def _lost(points: Array, path: Array, near: float) -> float | None:
 
 def _filmed(one: Reflight, number: int, phase: Phase) -> Findings:
     """In a recording the body is turned, and the picture stands, as near to the plan as is said."""
-    inside = one.flown.recording == number
-    place, body, aim = one.flown.place[inside], one.flown.body[inside], one.flown.aim[inside]
+    flown = one.flown.some(one.flown.recording == number)
     times = ticks_of(one.case, phase)
     worst = {"heading": (0.0, 0.0), "picture": (0.0, 0.0)}
     for t, state in zip(times, one.flight.at(times), strict=True):
-        beside = np.linalg.norm(place - state[:3], axis=1) <= one.said.position + EARTH + STEP
+        beside = np.linalg.norm(flown.place - state[:3], axis=1) <= one.said.position + EARTH + STEP
         if not beside.any():
             yield one.finding("place in the film", 1.0, 0.0, float(t))
             return
-        off = (body[beside] - state[BODY_YAW] + np.pi) % (2 * np.pi) - np.pi
+        off = (flown.body[beside] - state[BODY_YAW] + np.pi) % (2 * np.pi) - np.pi
         worst["heading"] = max(worst["heading"], (float(np.abs(off).min()), float(t)))
-        shift = _shift(one, phase, float(t), state, (place[beside], aim[beside]))
+        shift = _shift(one, phase, float(t), state, flown.some(beside))
         worst["picture"] = max(worst["picture"], (shift, float(t)))
     limits = {"heading": one.said.heading + TURNING, "picture": one.said.screen}
     for rule, (found, t) in worst.items():
@@ -172,18 +171,29 @@ def _filmed(one: Reflight, number: int, phase: Phase) -> Findings:
             yield one.finding(f"{rule} in the film", found, limits[rule], t)
 
 
-def _shift(one: Reflight, phase: Phase, t: float, state: Array, flown: tuple[Array, Array]) -> float:
+def _shift(one: Reflight, phase: Phase, t: float, state: Array, flown: Flown) -> float:
     """Return how far on screen the target is from where the plan has it, half frames; 0 where none is."""
     spans = [f for f in one.flight.framing if f["shot"] == phase.shot and f["start"] <= t <= f["end"]]
     if not spans:
         return 0.0
-    place, aim = flown
-    states = np.tile(state, (len(place) + 1, 1))
-    states[1:, :3], states[1:, CAM_YAW], states[1:, CAM_PITCH] = place, aim[:, 0], aim[:, 1]
+    states = np.tile(state, (len(flown.place) + 1, 1))
+    states[1:, :3], states[1:, CAM_YAW : CAM_PITCH + 1] = flown.place, flown.aim
     centre = one.case.mission.targets[spans[-1]["target"]].at(np.array([t]))
     camera = Camera.of(states, float(one.case.drones[one.flight.drone]["aspect"]))
     screen, depth = camera.project(np.tile(centre, (len(states), 1, 1)))
     if depth[0, 0] <= 0:
         return 0.0
-    away = np.linalg.norm(screen[1:, 0] - screen[0, 0], axis=1)
-    return float(np.where(depth[1:, 0] > 0, np.nan_to_num(away, nan=np.inf), np.inf).min())
+    away = np.where(depth[1:] > 0, screen[1:, 0] - screen[0, 0], np.nan)
+    return _least(away, np.diff(flown.leg) == 0)
+
+
+def _least(away: Array, joined: Array) -> float:
+    """Return how near points (K, 2), and the lines from each to the next (K - 1,) joined one, come to (0, 0).
+
+    The flown way is sampled; on a close picture half a step of it is as large as what is judged.
+    """
+    start, line = away[:-1][joined], np.diff(away, axis=0)[joined]
+    length2 = np.maximum((line**2).sum(axis=1), np.finfo(float).tiny)
+    share = np.clip(-(start * line).sum(axis=1) / length2, 0.0, 1.0)
+    near = np.concatenate([away, start + share[:, None] * line])
+    return float(np.nan_to_num(np.linalg.norm(near, axis=1), nan=np.inf).min())

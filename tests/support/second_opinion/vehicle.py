@@ -1,8 +1,9 @@
 """A vehicle of few rules that flies a mission file: those of ``outputs.md``, and of the MAVLink commands.
 
 Straight legs at the speeds that were commanded last. A PX4 has a waypoint's heading on the whole leg to it,
-an ArduPilot turns as it was told, and as a whole where its gimbal cannot turn. A gimbal looks at the region
-of interest, or stands as it was commanded against the body.
+an ArduPilot turns as it was told, and as a whole where its gimbal cannot turn. A vehicle stays at a waypoint
+after it has arrived there, and turns on meanwhile. A gimbal looks at the region of interest, or stands as it
+was commanded: against the body, or with its yaw from North where the command locks it.
 """
 
 from __future__ import annotations
@@ -20,20 +21,27 @@ TAKEOFF, LAND, WAYPOINT = 22, 21, 16
 TURN, SPEED, LOOK_AT, LOOK_AHEAD, TILT = 115, 178, 195, 197, 205
 POINT_GIMBAL, TAKE_GIMBAL, RECORD, STOP = 1000, 1001, 2500, 2501
 STEP = 0.02  # metres between two points of a leg
-POINTS = 20  # of a leg at least
+POINTS = 20  # of a leg at least, and of a stay
+YAW_LOCK = 16  # bit of parameter 5 of POINT_GIMBAL
 CAN_PAN = np.radians(1.0)  # range from which a gimbal turns by itself
 
 
 class Flown(NamedTuple):
     """Points of a flight, shapes (K, ...): place, body's yaw, camera's yaw and pitch (NaN where nobody aims
-    it), number of the recording (-1 outside); and how long all recordings take by speeds alone, seconds.
+    it), number of the recording (-1 outside) and of the leg; and how long all recordings take by speeds
+    alone, seconds.
     """
 
     place: Array
     body: Array
     aim: Array
     recording: Array
+    leg: Array
     filmed: float
+
+    def some(self, which: Array) -> Flown:
+        """Return some of the points."""
+        return Flown(*(field[which] for field in self[:-1]), self.filmed)
 
 
 @dataclass(frozen=True)
@@ -41,7 +49,7 @@ class Vehicle:
     """What is in force between two items.
 
     speeds : over ground, up, down; turn : yaw to turn to, and rad/s with their sign
-    gimbal : pitch and yaw against the body; recording : number of the last one
+    gimbal : pitch and yaw, against the body or, if locked, from East; recording : number of the last one
     """
 
     drone: dict[str, Any]
@@ -51,6 +59,7 @@ class Vehicle:
     speeds: tuple[float, float, float]
     turn: tuple[float, float] | None = None
     gimbal: tuple[float, float] | None = None
+    locked: bool = False
     region: Array | None = None
     recording: int = -1
     filming: bool = False
@@ -75,24 +84,31 @@ def fly(file: MissionFile, drone: dict[str, Any], yaw: float) -> Flown:
         else:
             now = COMMANDS[item.command](now, item)
     parts = [np.concatenate(field) for field in list(zip(*legs, strict=True))[:4]]
-    return Flown(parts[0], parts[1], parts[2], parts[3], sum(leg.filmed for leg in legs))
+    numbers = np.repeat(np.arange(len(legs)), [len(leg.place) for leg in legs])
+    return Flown(parts[0], parts[1], parts[2], parts[3], numbers, sum(leg.filmed for leg in legs))
 
 
 def _leg(now: Vehicle, item: Item) -> Flown:
     to = now.file.place(item)
     way = to - now.at
     up = now.speeds[1] if way[2] > 0 else now.speeds[2]
-    lasts = max(float(np.hypot(way[0], way[1])) / now.speeds[0], abs(way[2]) / up) + item.params[0]
+    moves, stays = max(float(np.hypot(way[0], way[1])) / now.speeds[0], abs(way[2]) / up), item.params[0]
     share = np.linspace(0.0, 1.0, max(POINTS, int(np.linalg.norm(way) / STEP) + 2))
+    time = share * moves
+    if stays:
+        share = np.concatenate([share, np.ones(POINTS)])
+        time = np.concatenate([time, np.linspace(moves, moves + stays, POINTS)])
     place = now.at + share[:, None] * way
-    body, aim = _facing(now, item, place, share * lasts), np.full((len(share), 2), np.nan)
+    body, aim = _facing(now, item, place, time), np.full((len(share), 2), np.nan)
     if now.region is not None:
         yaw, pitch = _towards(now.region, place)
         aim = np.stack([yaw if now.pans else body, pitch], axis=1)
     elif now.gimbal is not None:
-        aim = np.stack([body + now.gimbal[1], np.full(len(share), now.gimbal[0])], axis=1)
+        pitch, pan = now.gimbal
+        from_zero = np.zeros(len(share)) if now.locked else body
+        aim = np.stack([from_zero + pan, np.full(len(share), pitch)], axis=1)
     recording = np.full(len(share), now.recording if now.filming else -1)
-    return Flown(place, body, aim, recording, lasts if now.filming else 0.0)
+    return Flown(place, body, aim, recording, np.zeros(len(share)), time[-1] if now.filming else 0.0)
 
 
 def _facing(now: Vehicle, item: Item, place: Array, time: Array) -> Array:
@@ -129,7 +145,9 @@ def _turn(now: Vehicle, item: Item) -> Vehicle:
 
 def _point(now: Vehicle, item: Item) -> Vehicle:
     pitch, yaw = item.params[0], item.params[1 if item.command == POINT_GIMBAL else 2]
-    return replace(now, gimbal=(np.radians(pitch), -np.radians(yaw)), region=None)
+    locked = item.command == POINT_GIMBAL and bool(int(item.params[4]) & YAW_LOCK)
+    pan = (np.pi / 2 if locked else 0.0) - np.radians(yaw)
+    return replace(now, gimbal=(np.radians(pitch), pan), locked=locked, region=None)
 
 
 COMMANDS: dict[int, Callable[[Vehicle, Item], Vehicle]] = {
