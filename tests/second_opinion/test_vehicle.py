@@ -63,3 +63,9 @@ def test_the_yaw_of_a_gimbal_counts_from_the_body_or_where_it_is_locked_from_nor
     """30 degrees clockwise, of a body that faces East."""
     aimed = flown(Item(1000, 2, (-10.0, 30.0, nan, nan, flags, 0.0, 0.0)), to(20.0))
     assert aimed.aim[-1] == pytest.approx((yaw, np.radians(-10.0)))
+
+
+def test_a_focus_holds_from_its_item_on() -> None:
+    focused = flown(to(10.0), Item(532, 2, (3.0, 12.5, 0.0, 0.0, 0.0, 0.0, 0.0)), to(20.0)).focus
+    assert np.isnan(focused[0])
+    assert focused[-1] == 12.5

@@ -12,6 +12,7 @@ import numpy as np
 from tests.support.second_opinion.case import Case, Finding, Findings
 from tests.support.second_opinion.flight import BODY_YAW, CAM_PITCH, CAM_YAW, Array, Flight, Phase
 from tests.support.second_opinion.framing import ticks_of
+from tests.support.second_opinion.lens import SHARP_SHARE, discs, withheld
 from tests.support.second_opinion.mission_files import read
 from tests.support.second_opinion.picture import Camera
 from tests.support.second_opinion.vehicle import KNOWN, LAND, STEP, TAKEOFF, Flown, fly
@@ -64,6 +65,10 @@ def reflights(case: Case) -> Findings:
     said = dict(_said(case.notes))
     for drone, flight in case.flights.items():
         written = case.drones[drone]
+        if withheld(case, flight):
+            written_still = [name for name in case.files if name in (f"{drone}.plan", f"{drone}.waypoints")]
+            yield from (Finding("file without its promised zoom", name, 1, 0) for name in written_still)
+            continue
         endings = ("plan", "waypoints") if written["autopilot"] == "ardupilot" else ("plan",)
         for name in (f"{drone}.{ending}" for ending in endings):
             if name not in case.files or name not in said:
@@ -165,7 +170,10 @@ def _filmed(one: Reflight, number: int, phase: Phase) -> Findings:
         worst["heading"] = max(worst["heading"], (float(np.abs(off).min()), float(t)))
         shift = _shift(one, phase, float(t), state, flown.some(beside))
         worst["picture"] = max(worst["picture"], (shift, float(t)))
-    limits = {"heading": one.said.heading + TURNING, "picture": one.said.screen}
+    reach = one.said.position + EARTH + STEP
+    for t, disc in discs(one.case, one.flight, phase, times, flown, reach):
+        worst["focus"] = max(worst.get("focus", (0.0, 0.0)), (disc, t))
+    limits = {"focus": SHARP_SHARE, "heading": one.said.heading + TURNING, "picture": one.said.screen}
     for rule, (found, t) in worst.items():
         if not found <= limits[rule] + ROUNDING:
             yield one.finding(f"{rule} in the film", found, limits[rule], t)

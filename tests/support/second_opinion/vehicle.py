@@ -20,6 +20,7 @@ from tests.support.second_opinion.mission_files import Item, MissionFile
 TAKEOFF, LAND, WAYPOINT = 22, 21, 16
 TURN, SPEED, LOOK_AT, LOOK_AHEAD, TILT = 115, 178, 195, 197, 205
 POINT_GIMBAL, TAKE_GIMBAL, RECORD, STOP = 1000, 1001, 2500, 2501
+FOCUS, METRES = 532, 3  # and the type in which it is a distance
 STEP = 0.02  # metres between two points of a leg
 POINTS = 20  # of a leg at least, and of a stay
 YAW_LOCK = 16  # bit of parameter 5 of POINT_GIMBAL
@@ -28,8 +29,8 @@ CAN_PAN = np.radians(1.0)  # range from which a gimbal turns by itself
 
 class Flown(NamedTuple):
     """Points of a flight, shapes (K, ...): place, body's yaw, camera's yaw and pitch (NaN where nobody aims
-    it), number of the recording (-1 outside) and of the leg; and how long all recordings take by speeds
-    alone, seconds.
+    it), number of the recording (-1 outside) and of the leg, metres at which the lens is focused (NaN where
+    nobody says); and how long all recordings take by speeds alone, seconds.
     """
 
     place: Array
@@ -37,6 +38,7 @@ class Flown(NamedTuple):
     aim: Array
     recording: Array
     leg: Array
+    focus: Array
     filmed: float
 
     def some(self, which: Array) -> Flown:
@@ -50,6 +52,7 @@ class Vehicle:
 
     speeds : over ground, up, down; turn : yaw to turn to, and rad/s with their sign
     gimbal : pitch and yaw, against the body or, if locked, from East; recording : number of the last one
+    focus : metres
     """
 
     drone: dict[str, Any]
@@ -62,6 +65,7 @@ class Vehicle:
     locked: bool = False
     region: Array | None = None
     recording: int = -1
+    focus: float = float("nan")
     filming: bool = False
 
     @property
@@ -83,9 +87,9 @@ def fly(file: MissionFile, drone: dict[str, Any], yaw: float) -> Flown:
             now = replace(now, at=file.place(item), yaw=float(legs[-1].body[-1]), turn=None)
         else:
             now = COMMANDS[item.command](now, item)
-    parts = [np.concatenate(field) for field in list(zip(*legs, strict=True))[:4]]
-    numbers = np.repeat(np.arange(len(legs)), [len(leg.place) for leg in legs])
-    return Flown(parts[0], parts[1], parts[2], parts[3], numbers, sum(leg.filmed for leg in legs))
+    numbered = [leg._replace(leg=leg.leg + k) for k, leg in enumerate(legs)]
+    parts = [np.concatenate(field) for field in list(zip(*numbered, strict=True))[:-1]]
+    return Flown(*parts, sum(leg.filmed for leg in legs))
 
 
 def _leg(now: Vehicle, item: Item) -> Flown:
@@ -108,7 +112,8 @@ def _leg(now: Vehicle, item: Item) -> Flown:
         from_zero = np.zeros(len(share)) if now.locked else body
         aim = np.stack([from_zero + pan, np.full(len(share), pitch)], axis=1)
     recording = np.full(len(share), now.recording if now.filming else -1)
-    return Flown(place, body, aim, recording, np.zeros(len(share)), time[-1] if now.filming else 0.0)
+    focus, filmed = np.full(len(share), now.focus), float(time[-1]) if now.filming else 0.0
+    return Flown(place, body, aim, recording, np.zeros(len(share)), focus, filmed)
 
 
 def _facing(now: Vehicle, item: Item, place: Array, time: Array) -> Array:
@@ -150,6 +155,11 @@ def _point(now: Vehicle, item: Item) -> Vehicle:
     return replace(now, gimbal=(np.radians(pitch), pan), locked=locked, region=None)
 
 
+def _focus(now: Vehicle, item: Item) -> Vehicle:
+    assert item.params[0] == METRES
+    return replace(now, focus=item.params[1])
+
+
 COMMANDS: dict[int, Callable[[Vehicle, Item], Vehicle]] = {
     SPEED: _speed,
     TURN: _turn,
@@ -158,6 +168,7 @@ COMMANDS: dict[int, Callable[[Vehicle, Item], Vehicle]] = {
     TAKE_GIMBAL: lambda now, _: now,
     LOOK_AT: lambda now, item: replace(now, region=now.file.place(item), gimbal=None),
     LOOK_AHEAD: lambda now, _: replace(now, region=None, gimbal=None),
+    FOCUS: _focus,
     RECORD: lambda now, _: replace(now, recording=now.recording + 1, filming=True),
     STOP: lambda now, _: replace(now, filming=False),
 }
