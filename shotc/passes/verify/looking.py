@@ -38,7 +38,8 @@ BODY_RAD = 1e-3
 """Tolerance of the heading of a body that turns with its camera, radians."""
 
 SWING_SHARE = 0.25
-"""Share of its turn between two keyframes by which a camera may swing beyond that: a smooth turn does."""
+"""Share of the largest turn between two keyframes of a shot by which a camera may swing beyond their range.
+The curve of its angles is smooth, so a large turn makes it swing on the ways beside it, too."""
 
 
 def looking(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
@@ -114,8 +115,8 @@ def _at_keyframes(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterato
 def _between(flight: JudgedFlight, placed: PlacedShot, spans: list[KeyframedSpan]) -> Iterator[Claim]:
     """Yield claims that lens and direction stay between those of the keyframes on both sides.
 
-    A camera that follows a target with its place on screen turns as the target does. So does one that leaves
-    a moving target, or turns to one.
+    A camera that leaves a target, or turns to one, follows it up to the middle of the way, so its direction
+    may leave that range. It is judged only between two keyframes that frame nothing.
     """
     shot, ways = placed.shot, [span for span in spans if span.end > span.start]
     if not ways:
@@ -124,26 +125,23 @@ def _between(flight: JudgedFlight, placed: PlacedShot, spans: list[KeyframedSpan
         limit = Limit("lens between keyframes", LENS_RAD, "rad", shot.path, shot=shot.id)
         beyond = (_beyond(flight, HFOV, s, (s.before.hfov, s.after.hfov), LENS_RAD) for s in ways)
         yield bounded(flight, limit, max(beyond, key=lambda bound: bound.proven))
-    free = [s for s in ways if not _follows(s, moving=is_keyed(shot))]
+    free = [s for s in ways if s.before.reference is None and s.after.reference is None]
     if not free or (flight.mission.rules.look_ahead is not None and looks_along(shot)):
         return
-    swings: list[tuple[float, float, ProvedExtreme]] = []
-    for span in free:
-        ends = flight.track.curve(np.array([span.start, span.end]))
-        most = TURNED_RAD + SWING_SHARE * float(np.abs(ends[1] - ends[0])[[CAM_YAW, CAM_PITCH]].max())
-        for channel in (CAM_YAW, CAM_PITCH):
-            reach = (float(ends[0, channel]), float(ends[1, channel]))
-            bound = _beyond(flight, channel, span, reach, most)
-            swings.append((bound.proven / most, most, bound))
-    _, most, worst = max(swings, key=lambda swing: swing[0])
+    angles = [_angles_at(flight, span) for span in ways]
+    most = TURNED_RAD + SWING_SHARE * max(float(np.abs(b - a).max()) for a, b in angles)
     limit = Limit("direction between keyframes", most, "rad", shot.path, shot=shot.id)
-    yield bounded(flight, limit, worst)
+    swings = (
+        _beyond(flight, channel, span, (float(a), float(b)), most)
+        for span in free
+        for channel, a, b in zip((CAM_YAW, CAM_PITCH), *_angles_at(flight, span), strict=True)
+    )
+    yield bounded(flight, limit, max(swings, key=lambda bound: bound.proven))
 
 
-def _follows(span: KeyframedSpan, *, moving: bool) -> bool:
-    """Return whether the camera turns with a target on a way; moving : whether that moves."""
-    framed = [k.reference is not None for k in (span.before, span.after)]
-    return any(framed) if moving else all(framed) and span.keeps
+def _angles_at(flight: JudgedFlight, span: KeyframedSpan) -> Array:
+    """Return yaw and pitch of the camera at both ends of a way, rad, shape (2, 2)."""
+    return np.asarray(flight.track.curve(np.array([span.start, span.end]))[:, [CAM_YAW, CAM_PITCH]])
 
 
 def _beyond(
