@@ -275,6 +275,7 @@ def _residuals(
     previous, reach = faint
     residuals: Residuals = []
     sized = any(s.size is not None for s in subjects)
+    unplaced: list[Vec2] = []
     for s in subjects:
         offset = minus(s.centre, eye)
         if s.shape.nearest_depth(camera, offset) <= 1e-3:
@@ -284,7 +285,7 @@ def _residuals(
         if not high > low:
             return None
         if s.uv is None:
-            residuals += [FAINT_WEIGHT * u, FAINT_WEIGHT * v]
+            unplaced.append((u, v))
         else:
             residuals += [u - s.uv[0], v - s.uv[1]]
         if s.size is not None:
@@ -298,12 +299,21 @@ def _residuals(
             residuals.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
         residuals.append(HARD_WEIGHT * max(0.0, bounds.near - s.shape.gap(offset)))
         residuals += [HARD_WEIGHT * _hidden(eye, s, occluder) for occluder in s.occluders]
+    residuals += _off_middle(unplaced)
     residuals += [HARD_WEIGHT * solid.lack(eye) for solid in bounds.solids]
     residuals += _off_pose(pose, bounds.drawn, subjects)
     if previous is not None:
         residuals += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, previous.kept, strict=True)]
         residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.largest_step))
     return residuals
+
+
+def _off_middle(places: Sequence[Vec2]) -> Residuals:
+    """Return the residuals that draw subjects without a place to the middle of the screen, as one group.
+
+    Drawn one by one, two subjects would come together in the middle, one behind the other.
+    """
+    return [FAINT_WEIGHT * sum(p[i] for p in places) / len(places) for i in (0, 1)] if places else []
 
 
 def _hidden(eye: Vec3, subject: RequiredView, occluder: Solid) -> float:

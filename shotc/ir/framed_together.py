@@ -177,8 +177,9 @@ def _assigned(
 ) -> tuple[Subject, ...]:
     """Assign places of the composition to the subjects without a place of their own, each place once.
 
-    The assignment minimises the distances from where the subjects appear without one. A subject that gets no
-    place is only kept in the frame.
+    The assignment changes least how the subjects appear without places. Where no subject has a place of its
+    own, the camera turns to shift the whole picture, so only the places relative to each other count, and the
+    shift only among equals. A subject that gets no place is only kept in the frame.
     """
     silent = [i for i, w in enumerate(required) if w.uv is None and not subjects[i].composition.watches]
     if not silent:
@@ -189,14 +190,26 @@ def _assigned(
     free = [] if subjects[silent[0]].composition.keep else free
     spots: list[Vec2 | None] = [*free, *([None] * max(0, len(silent) - len(free)))]
 
-    def away(order: tuple[Vec2 | None, ...]) -> float:
-        return sum(9.0 if p is None else dist(p, at[i]) for i, p in zip(silent, order, strict=True))
+    shifts = all(w.uv is None for w in required)
 
-    best = min(permutations(spots[:8], len(silent)), key=away)
+    def changed(order: tuple[Vec2 | None, ...]) -> tuple[int, float, float]:
+        moves = [
+            (p[0] - at[i][0], p[1] - at[i][1]) for i, p in zip(silent, order, strict=True) if p is not None
+        ]
+        shift = _mean(moves) if shifts else (0.0, 0.0)
+        relative = sum(dist(move, shift) ** 2 for move in moves)
+        return len(order) - len(moves), round(relative, 6), sum(hypot(*move) for move in moves)
+
+    best = min(permutations(spots[:8], len(silent)), key=changed)
     settled = list(subjects)
     for i, place in zip(silent, best, strict=True):
         settled[i] = at_place(subjects[i], place)
     return tuple(settled)
+
+
+def _mean(moves: Sequence[Vec2]) -> Vec2:
+    count = max(1, len(moves))
+    return (sum(u for u, _ in moves) / count, sum(v for _, v in moves) / count)
 
 
 def _on_screen(pose: Pose, lens: Lens, subject: RequiredView) -> Vec2:

@@ -35,8 +35,8 @@ def test_a_framing_that_avoids_walls_names_them_and_each_help_does() -> None:
     (fault,) = placed(SHAFT.encode())[1]
     assert fault.code == "M033"
     assert fault.notes[-1] == (
-        "where all appear as asked, `e` hides more than half of `statue` in 100 % of the shot"
+        "where all appear as asked, `s` hides more than half of `statue` in 100 % of the shot"
     )
     found, wrong = failed(SHAFT, lambda text: placed(text.encode())[1])
-    assert [remedy.text.split("`")[1] for remedy in found] == ["size: 0.128", "allow: [hidden-subject]"]
+    assert [remedy.text.split("`")[1] for remedy in found] == ["size: 0.118", "allow: [hidden-subject]"]
     assert wrong == []
