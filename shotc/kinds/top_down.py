@@ -41,7 +41,7 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     east, north, up = shot.drift or (0.0, 0.0, 0.0)
     duration = shot.timing.duration
     fixed = {
-        "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH_RAD, -pi / 2),
+        "aim": (_top(shot), -pi / 2),
         "composition": shot.composition or WATCH,
     }
     drifts = hypot(east, north, up) > 0
@@ -64,6 +64,18 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
         scene.keyframe(at, shot.target, **fixed)
         for at in (first, scene.raised((x + end[0], y + end[1], end[2]), target, above))
     )
+
+
+def _top(shot: TopDownShot) -> float:
+    """Return the yaw of a camera that looks straight down: the direction of the picture's top, rad.
+
+    It is the direction of the drift. A camera that tilts to keep its target placed has the target ahead of
+    it: behind it, the gimbal would have to tilt past the vertical, and the picture would turn over.
+    """
+    east, north, _ = shot.drift or (0.0, 0.0, 0.0)
+    if hypot(east, north) == 0.0:
+        return NORTH_RAD
+    return atan2(north, east) if shot.composition is None else atan2(-north, -east)
 
 
 def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) -> Diagnostic | None:

@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import Vec2
 from shotc.ir.limits import reaches
-from shotc.ir.mission import Keyframe, MissionIR, Shot
+from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.labels import framing_label
 from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
@@ -61,6 +61,8 @@ def off_composition(keyframe: Keyframe, setting: FixedCamera, requested: Vec2, p
     """Return the warning that the target stands off its set: it would be cropped, or is out of reach."""
     instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
     free = setting._replace(pitch=(-pi / 2, pi / 2))
+    if _no_angles(free, keyframe.composition):
+        return _straight_over("G011", keyframe, setting, instead)
     alternative = nearest_candidate(free, keyframe.composition, requested)
     aim = None if alternative is None else free.aim(alternative)
     if aim is not None:
@@ -169,6 +171,8 @@ def does_not_fit(keyframe: Keyframe, setting: FixedCamera, requested: Vec2) -> M
     aim = None if place is None else free.aim(place)
     if aim is not None:
         return _beyond_gimbal(keyframe, setting, aim)
+    if _no_angles(free, keyframe.composition):
+        return _straight_over("G010", keyframe, setting)
     over = -roomiest(free, keyframe.composition)
     return Miss(
         "G010",
@@ -181,6 +185,38 @@ def does_not_fit(keyframe: Keyframe, setting: FixedCamera, requested: Vec2) -> M
         ),
         partial(_what_fits, keyframe, setting),
     )
+
+
+def _no_angles(free: FixedCamera, composition: Composition) -> bool:
+    """Return whether no angles put a target on any place of a set of points.
+
+    That is so where the target is straight below or above: the camera does not roll, so such a target is on
+    the picture's upright middle line.
+    """
+    aims = [free.aim(place) for place in (*composition.points, *composition.last)]
+    lines = composition.u_lines or composition.v_lines
+    return not lines and not any(aim is not None and reaches(free.pitch, aim[1]) for aim in aims)
+
+
+def _straight_over(code: str, keyframe: Keyframe, setting: FixedCamera, *instead: str) -> Miss:
+    """Return the report on a place that no angles reach, since the target is straight below or above."""
+    name, side = keyframe.composition.name, "below" if setting.offset[2] < 0.0 else "above"
+    half = "lower" if side == "below" else "upper"
+    note = f"it is straight {side} the camera: it is on the frame's upright middle line, in the {half} half"
+    return Miss(
+        code,
+        keyframe,
+        hypot(*setting.offset),
+        f"no angles of the camera put target `{keyframe.target}` on `{name}`",
+        (note, *instead),
+        lambda mission, _: f"{_to_center(keyframe, mission)}, or film the target from a place aside of it",
+    )
+
+
+def _to_center(keyframe: Keyframe, mission: MissionIR) -> str:
+    """Return how to ask for the middle of the screen, by the key that asks for another place."""
+    own = (*keyframe.path, "frame") in mission.origins.values
+    return "write `frame: center`" if own else "set `composition: center`"
 
 
 def _beyond_gimbal(keyframe: Keyframe, setting: FixedCamera, aim: Vec2) -> Miss:

@@ -164,6 +164,15 @@ def test_lines_are_straight_and_end_where_they_should(
     assert max(steps) <= whole / 4 + 1e-9
 
 
+def test_a_view_from_above_that_tilts_has_its_target_ahead() -> None:
+    """Behind it, the picture turned over on the way, since no gimbal tilts past the vertical."""
+    first, last = keyframes(
+        "kind: top-down, target: pond, altitude: 40, drift: [0.6, 0.8, 0], timing: {duration: 10}, "
+        "composition: thirds-first"
+    )
+    assert first.aim == last.aim == pytest.approx((atan2(-0.8, -0.6), -pi / 2))
+
+
 def test_a_view_from_above_looks_down_along_its_drift() -> None:
     still = keyframes("kind: top-down, target: pond, altitude: 40")
     assert [k.at for k in still] == [(-30, 5, 40)]
