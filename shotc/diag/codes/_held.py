@@ -82,9 +82,10 @@ HELD: tuple[CodeInfo, ...] = (
             "refused. What the plan says is believed as far as the mission explains it: going round what "
             "stands or comes there, half the distance to the target for its picture, and of what moves the "
             "way in which the drone stops. Between placed keyframes the path stays within half of the way "
-            "between them of the straight one, and what stands there. A place that the author gave is left "
-            "only for the pictures of other drones, by a fifth of the distance where they are preferred "
-            "free, and for what comes there. Plan the mission again.",
+            "between them of the straight one, in a `follow-path` within a tenth of it (0.5 m to 5 m), and "
+            "what stands there. A place that the author gave is left only for the pictures of other drones, "
+            "by a fifth of the distance where they are preferred free, and for what comes there. Plan the "
+            "mission again.",
         ),
     ),
     verified(
