@@ -13,7 +13,7 @@ from shotc.cli.exposed import exposed
 from shotc.cli.show_facts import beside, dense, display_rows, headline, layered, recorded, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
-from shotc.ir.measures import distinct_measures, measure
+from shotc.ir.measures import OUT_OF_PICTURE, distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation, from_required_positions
@@ -22,7 +22,6 @@ from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.ahead import unjudged
 from shotc.passes.verify.energy import ENERGY, J_PER_WH
-from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.planning.path.unwrapping import TURNS
 from shotc.rounding import as_minutes, at_least, at_most, plain, rounded_outward

@@ -14,12 +14,11 @@ from shotc.flightfiles.course import UntimedFlight
 from shotc.flightfiles.judge import FileClaim
 from shotc.flightfiles.swarm import Swarm
 from shotc.importers.flights.rows import VELOCITY
-from shotc.ir.measures import distinct_measures, measure
+from shotc.ir.measures import OUT_OF_PICTURE, distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.promises import PROMISES, broken_promise, promise_help
 from shotc.passes.verify.report import limit_label, rule_of, side_of, state_of
-from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.rounding import at_least, plain, up
 
 SEEN = "V025"

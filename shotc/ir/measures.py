@@ -13,6 +13,9 @@ USUAL_DIGITS = 4
 SHARES = frozenset({"of samples", "of its outline"})
 """Units of shares, which are shown in percent."""
 
+OUT_OF_PICTURE = " out of the picture"
+"""Ending of the claim that another drone is not seen, after that drone's name."""
+
 MOST_DIGITS = 12
 """Number of digits at which two values that still look alike count as the same."""
 

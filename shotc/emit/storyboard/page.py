@@ -27,13 +27,15 @@ from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
 from shotc.ir.hidden import HALF_SHARE
-from shotc.ir.measures import SHARES
+from shotc.ir.measures import OUT_OF_PICTURE, SHARES, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.rounding import as_minutes, at_least
 
 WIDTH_IN, MARGIN_IN, GAP_IN = 16.0, 0.55, 0.28
 HEADING_IN, FOOTING_IN, BAND_IN, LINE_IN = 1.40, 0.85, 0.60, 0.18
+PROOF, FOOTNOTE = Type(10, INK, bold=True, across="right"), Type(10, INK)
+SEPARATOR = "   ·   "
 MANY_SHOTS = 4
 """Number of shots, above which pictures and maps are smaller."""
 
@@ -93,7 +95,9 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     boards = shot_boards(plan) if shots <= MANY_SHOTS else shot_boards(plan, most_generated=4)
     layouts = [layout(board.drone.aspect, shots) for board in boards]
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
-    height = HEADING_IN + sum(heights) + FOOTING_IN
+    footing = _footing_lines(plan.certificate, dpi)
+    below = FOOTING_IN + LINE_IN * (len(footing) - 1)
+    height = HEADING_IN + sum(heights) + below
     canvas = Canvas(WIDTH_IN, height, dpi)
     grid = _grid_of(boards, plan.trajectory.keyframes.mission)
     _heading(canvas, height, plan, boards, grid)
@@ -101,7 +105,7 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
     for place, board, used in zip(layouts, boards, heights, strict=True):
         _shot(canvas, top, (place, board), plan, grid)
         top -= used
-    _footing(canvas, plan.certificate)
+    _footing(canvas, below, footing, headline(plan.certificate))
     return canvas.png()
 
 
@@ -277,10 +281,39 @@ def _framing(framing: ScreenSummary) -> str:
     return "  ·  ".join(parts)
 
 
-def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
-    canvas.lines(
-        [np.array([[MARGIN_IN, FOOTING_IN - 0.2], [WIDTH_IN - MARGIN_IN, FOOTING_IN - 0.2]])], FAINT, 0.8
-    )
+def _footing(canvas: Canvas, height: float, lines: list[str], proof: str) -> None:
+    """Write the certificate in the lowest ``height`` inches of the page: lines of text, and the proof."""
+    rule = height - 0.2
+    canvas.lines([np.array([[MARGIN_IN, rule], [WIDTH_IN - MARGIN_IN, rule]])], FAINT, 0.8)
+    first = height - FOOTING_IN + 0.42
+    canvas.text(WIDTH_IN - MARGIN_IN, first, proof, PROOF)
+    for i, line in enumerate(lines):
+        width = _width_beside(canvas, proof) if i == 0 else WIDTH_IN - 2 * MARGIN_IN
+        canvas.write(MARGIN_IN, first - LINE_IN * i, line, FOOTNOTE, width)
+
+
+def _width_beside(canvas: Canvas, proof: str) -> float:
+    return WIDTH_IN - 2 * MARGIN_IN - canvas.extent(proof, PROOF)[0] - 0.3
+
+
+def _footing_lines(certificate: tuple[Claim, ...], dpi: float) -> list[str]:
+    """Return what the certificate says of the pictures in lines that fit the page, the first beside the
+    proof.
+    """
+    canvas = Canvas(1.0, 1.0, dpi)  # measures text: the page's height is not known before
+    width = _width_beside(canvas, headline(certificate))
+    lines = [""]
+    for part in _footing_parts(certificate):
+        longer = f"{lines[-1]}{SEPARATOR}{part}" if lines[-1] else part
+        if not lines[-1] or canvas.extent(longer, FOOTNOTE)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(part)
+            width = WIDTH_IN - 2 * MARGIN_IN
+    return lines
+
+
+def _footing_parts(certificate: tuple[Claim, ...]) -> list[str]:
     whole, lost = certified(certificate), not_promised(certificate)
     parts = []
     if whole.error is not None and whole.time is not None:
@@ -288,14 +321,10 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
             f"Worst screen error {at_least(whole.error, 3)} ({whole.shot}, {as_minutes(whole.time)})"
         )
     if lost:
-        parts.append(f"not promised: {', '.join(lost)}")
+        parts += [f"not promised: {lost[0]}", *lost[1:]]
     elif whole.in_frame is not None:
         parts.append(f"whole subject in frame {percent(whole.in_frame)}")
-    text, proof = "   ·   ".join(parts), headline(certificate)
-    bold = Type(10, INK, bold=True, across="right")
-    canvas.text(WIDTH_IN - MARGIN_IN, 0.42, proof, bold)
-    width_left = WIDTH_IN - 2 * MARGIN_IN - canvas.extent(proof, bold)[0] - 0.3
-    canvas.write(MARGIN_IN, 0.42, text, Type(10, INK), width_left)
+    return parts
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:
@@ -318,7 +347,19 @@ def not_promised(certificate: tuple[Claim, ...], most: int = 3) -> list[str]:
         if claim.hard or claim.holds:
             continue
         target, _, what = claim.constraint.rpartition(" in frame")
-        value = percent(claim.worst) if claim.unit in SHARES else f"{claim.worst:.3g} {claim.unit}"
         name = f"whole {target} in frame" if target and not what else claim.constraint
-        words.append(f"{name} {value.strip()} ({claim.shot or claim.subject})")
+        words.append(f"{_missed(name, claim)} ({claim.shot or claim.subject})")
     return words if len(words) <= most else [*words[:most], f"{len(words) - most} more"]
+
+
+def _missed(name: str, claim: Claim) -> str:
+    """Return a missed claim with its worst value; a negative length or angle is said in words.
+
+    name : of the claim
+    """
+    if claim.unit in SHARES:
+        return f"{name} {percent(claim.worst)}"
+    if claim.worst >= 0.0:
+        return f"{name} {claim.worst:.3g} {claim.unit}".rstrip()
+    amount, other = measure(-claim.worst, claim.unit, 2), name.removesuffix(OUT_OF_PICTURE)
+    return f"{other} {amount} inside the picture" if other != name else f"{name} missed by {amount}"

@@ -7,7 +7,7 @@ from math import isfinite
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.ir.allow import HIDDEN
-from shotc.ir.measures import distinct_measures
+from shotc.ir.measures import OUT_OF_PICTURE, distinct_measures
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
@@ -23,7 +23,6 @@ from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
 from shotc.passes.verify.passing import reported_passes
 from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promise, promise_help, target_of
-from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.sighting import sighted
 from shotc.passes.verify.transits import ENDING as PASSED
 from shotc.passes.verify.visible import AT_FIRST, AT_LAST, IN_SIGHT, VISIBLE

@@ -18,15 +18,13 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import ProvedExtreme, norm, sup_convex
 from shotc.geom.sight import WITHIN_RAD, off_axis, outside
 from shotc.ir.drone import Drone
+from shotc.ir.measures import OUT_OF_PICTURE
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import cameras, ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, slack
-
-OUT_OF_PICTURE = " out of the picture"
-"""Ending of such a claim, after the other drone's name."""
 
 PATH = ("rules", "mutual_visibility")
 

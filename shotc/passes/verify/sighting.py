@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.measures import distinct_measures, measure
+from shotc.ir.measures import OUT_OF_PICTURE, distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
@@ -16,7 +16,7 @@ from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.kept_out import kept_out
-from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, CameraAndBody
+from shotc.passes.verify.sight import PATH, CameraAndBody
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"

@@ -16,13 +16,13 @@ from shotc.emit.csv_table import EFFORT, FRAMING, GEODETIC, LIGHT, TRAJECTORY
 from shotc.emit.ned import SETPOINTS
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
+from shotc.ir.measures import OUT_OF_PICTURE
 from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.path import ClockDeviation, PathDeviation
 from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.report import ENDING, RULES, SOFT, STARTING
-from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.planfile.codec import hints
 from shotc.planfile.write import document
 from shotc.simulation.clearance import ClosestApproach

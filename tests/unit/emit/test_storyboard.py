@@ -13,7 +13,16 @@ from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import compass, metres
 from shotc.emit.storyboard.furniture import LOWER_FIRST, corner, round_length
 from shotc.emit.storyboard.labels import MapLabel, free_room
-from shotc.emit.storyboard.page import WIDTH_IN, headline, layout, not_promised
+from shotc.emit.storyboard.page import (
+    FOOTNOTE,
+    MARGIN_IN,
+    SEPARATOR,
+    WIDTH_IN,
+    _footing_lines,
+    headline,
+    layout,
+    not_promised,
+)
 from shotc.emit.storyboard.scene import painting_order
 from shotc.emit.storyboard.sheet import outline, sheet_of
 from shotc.geom.camera import yaw_of
@@ -356,3 +365,28 @@ def test_furniture_stands_in_a_free_corner() -> None:
     assert corner(SHEET, size, LOWER_FIRST, []).x < 1.2
     assert corner(SHEET, size, LOWER_FIRST, [lower_left]).right > 4.8
     assert corner(SHEET, size, LOWER_FIRST, [lower_left, lower_right]).top > 3.8
+
+
+def test_a_drone_in_the_picture_is_said_in_words() -> None:
+    seen = replace(
+        framing_claims()[1], constraint="cam2 out of the picture", unit="m", worst=-31.695, limit=0.0
+    )
+    words = not_promised((seen, replace(seen, unit="rad", worst=-0.1), replace(seen, constraint="x to y")))
+    assert words == [
+        "cam2 31.7 m inside the picture (half)",
+        "cam2 5.7 deg inside the picture (half)",
+        "x to y missed by 31.7 m (half)",
+    ]
+
+
+def test_the_footer_is_broken_into_lines_that_fit_the_page() -> None:
+    seen = replace(framing_claims()[1], constraint="camera-two out of the picture", unit="m", worst=-31.695)
+    claims = (*framing_claims(), *(replace(seen, shot=f"the-orbit-of-the-barn-{i}") for i in range(3)))
+    lines = _footing_lines(claims, 100.0)
+    assert len(lines) == 2
+    parts = [part for line in lines for part in line.split(SEPARATOR)]
+    assert parts[0].startswith("Worst screen error")
+    assert parts[-1] == "2 more"
+    canvas = Canvas(1.0, 1.0, 100.0)
+    assert max(canvas.extent(line, FOOTNOTE)[0] for line in lines) <= WIDTH_IN - 2 * MARGIN_IN
+    assert _footing_lines(framing_claims()[:1], 100.0) == [""]
