@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from shotc.plugin_api.refiner import (
     Array,
     Drone,
     Fit,
+    FreeSpace,
     Status,
     fit,
     restrict,
@@ -50,20 +52,24 @@ class Given(NamedTuple):
     slopes: Array = np.zeros((0, 6))
 
 
-def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: Given) -> Piecewise:
+def camera(
+    drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: Given, space: FreeSpace | None = None
+) -> Piecewise:
     """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline of the differences.
 
     The camera interpolates ``given``, and at the pins the position and the lens.
     If the lens zooms and leaves the convex path's field of view, channel 6 is the field of view.
 
     states : shape (N + 1, 16) or (N + 1, 18) as in symbols
+    space : its walls along the axes bind between the nodes too, so that the camera comes to a place at such a
+        wall without crossing it
 
     Raises NoFit if no spline fits within the bounds.
     """
     curve = leg.curve
     assert curve is not None
     breaks = _breaks(curve.breaks, stages)
-    rows, bounds = [0, 1, 2, CAM_YAW, CAM_PITCH], {4: drone.gimbal.pitch}
+    rows, bounds = [0, 1, 2, CAM_YAW, CAM_PITCH], {**_between(space), 4: drone.gimbal.pitch}
     columns = [0, 1, 2, YAW, PITCH]
     if _zooms(states, curve(stages.s)[:, HFOV]):
         rows, columns = [*rows, HFOV], [*columns, LENS]
@@ -86,6 +92,19 @@ def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: G
     for k, (low, high) in bounds.items():
         ctrl[:, :, k] = within(ctrl[:, :, k], low, high)
     return Piecewise(breaks, ctrl)
+
+
+def _between(space: FreeSpace | None) -> dict[int, tuple[float, float]]:
+    """Return the bounds of x, y and z that walls along these axes set, metres, by axis."""
+    bounds: dict[int, tuple[float, float]] = {}
+    for wall in () if space is None else space.walls:
+        for axis, n in enumerate(wall.normal):
+            low, high = bounds.get(axis, (-inf, inf))
+            if n == 1.0:
+                bounds[axis] = max(low, wall.offset), high
+            elif n == -1.0:
+                bounds[axis] = low, min(high, -wall.offset)
+    return bounds
 
 
 def _zooms(states: Array, given: Array) -> bool:

@@ -33,7 +33,7 @@ def checked(subject: ShotContext, condition: AimCondition, camera: Piecewise) ->
     looks = condition.visibility == "silhouette"
     hidden = lost_on_path(subject, camera) if looks else 0.0
     out = cropped(subject, camera) if looks else 0.0
-    return Check(max(lack, 0.0), _late(subject, camera), hidden, out)
+    return Check(lack if lack > PROVED_M else 0.0, _late(subject, camera), hidden, out)
 
 
 def hopeless(subject: ShotContext) -> bool:

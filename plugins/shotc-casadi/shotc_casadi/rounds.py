@@ -150,7 +150,7 @@ def _tried(
     if attempt.solution.status != "solved":
         return nothing
     try:
-        turned = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given)
+        turned = camera(subject.drone, subject.leg, nodes, attempt.solution.states, given, subject.space)
         tried = nothing._replace(camera=turned, check=checked(subject, condition, turned))
     except (NoFit, NoTransit):
         return nothing
@@ -166,7 +166,9 @@ def _leveled(
     """Return a round whose camera crops nothing beside keyframes, unless it is worse elsewhere."""
     nodes, given = to
     try:
-        turned = camera(subject.drone, subject.leg, nodes, tried.attempt.solution.states, given)
+        turned = camera(
+            subject.drone, subject.leg, nodes, tried.attempt.solution.states, given, subject.space
+        )
         check = checked(subject, condition, turned)
     except (NoFit, NoTransit):
         return tried
