@@ -66,8 +66,11 @@ HELD: tuple[CodeInfo, ...] = (
         (
             "a fleet shows another picture than the mission asks for",
             "While a picture stands, its lights have the colour that the mission states (white for a shape without one), to one "
-            "level of 255, and no more than 95 % of a fleet are dark. The colours of a file without `color` are "
-            "not judged, since a plan does not hold the file. Plan the mission again.",
+            "level of 255, and no more than 95 % of a fleet are dark. Verification draws each text and each solid again. All lights "
+            "are on it, all of it has lights, and both have the same middle and width, as far as the number of drones and their "
+            "separation allow; the page on outputs has the limits. Pictures of files, and texts in other fonts than the "
+            "default one, are not judged so, since a plan does not hold the files; nor are the colours of a file without "
+            "`color`. The claim `pictures of a file` counts them. Plan the mission again.",
         ),
     ),
     verified(

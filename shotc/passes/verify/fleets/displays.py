@@ -1,6 +1,6 @@
 """Check that every display of the mission is flown, at its time, with its pictures in order.
 
-The plan does not contain the pictures, so there is no claim on how well a fleet draws them.
+What its pictures show is checked by ``lights`` and ``pictures``.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit, WorstValue, gap, 
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.fleets.lights import lights
+from shotc.passes.verify.fleets.pictures import drawn
 from shotc.passes.verify.fleets.standing import frames_of, standing
 
 LEAST_WAY_M = 0.05
@@ -46,6 +47,7 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             known = [s for s in frames if s.picture in range(len(display.pictures))]
             yield from standing(flight.fleet.name, display, flown[0], known)
             yield from lights(flight, display, known)
+            yield from drawn(flight, display, known)
             yield from _transitions(flight, display, frames)
             yield from _waves(flight, display, frames)
             yield from _holds(flight, display, frames)

@@ -84,6 +84,7 @@ def test_a_sound_show_is_verified() -> None:
         "acceleration", "jerk", "ground clearance", "drift from the vertical", "depth below home",
         "times flown", "pictures left out", "pictures out of order", "lack of hold", "excess of hold",
         "display without a picture", "light off its colour", "dark lights of a picture",
+        "light off its picture", "picture without lights", "picture off its place", "picture off its size",
         "error of transition", "drift at rest", "separation",
     }  # fmt: skip
     for c in verdict.certificate:
