@@ -37,6 +37,10 @@ AROUND_RAD = pi / 2
 BODY_RAD = 1e-3
 """Tolerance of the heading of a body that turns with its camera, radians."""
 
+SWUNG_RAD = 0.5
+"""Angle by which a camera that frames nothing may leave the range between two keyframes, radians: a curve
+that is led round an obstacle or refined swings by up to 0.4 rad."""
+
 SWING_SHARE = 0.25
 """Share of the largest turn between two keyframes of a shot by which a camera may swing beyond their range.
 The curve of its angles is smooth, so a large turn makes it swing on the ways beside it, too."""
@@ -129,7 +133,7 @@ def _between(flight: JudgedFlight, placed: PlacedShot, spans: list[KeyframedSpan
     if not free or (flight.mission.rules.look_ahead is not None and looks_along(shot)):
         return
     angles = [_angles_at(flight, span) for span in ways]
-    most = TURNED_RAD + SWING_SHARE * max(float(np.abs(b - a).max()) for a, b in angles)
+    most = SWUNG_RAD + SWING_SHARE * max(float(np.abs(b - a).max()) for a, b in angles)
     limit = Limit("direction between keyframes", most, "rad", shot.path, shot=shot.id)
     swings = (
         _beyond(flight, channel, span, (float(a), float(b)), most)
