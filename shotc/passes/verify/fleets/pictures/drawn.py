@@ -43,6 +43,9 @@ OFF_ROOM, OFF_PART, OFF_HEIGHT = 0.3, 0.5, 0.02
 BARE = 1.5
 """Largest distance of the shape from a light, over the larger of a part and the room."""
 
+WIDER_STROKES = 0.3
+"""The share of size of a text: each of its outlines has a whole number of lights, so parts are uneven."""
+
 PUSHED = 0.8
 """Room over the length of a part, above which lights may be pushed apart."""
 
@@ -186,4 +189,5 @@ def _resized(lit: _Lit) -> _Measured:
     narrow = np.sqrt(np.maximum(variance - WITHIN * lit.part**2, 0.0))
     found = ((lights - lights.mean(axis=0)) @ axes).std(axis=0)
     excess = float(np.maximum(found - wide, narrow - found).max())
-    return _Measured(max(excess, 0.0), WIDER_PART * lit.part + lit.pushed + lit.deep, lit)
+    wider = WIDER_STROKES if isinstance(lit.picture.source, Lettering) else WIDER_PART
+    return _Measured(max(excess, 0.0), wider * lit.part + lit.pushed + lit.deep, lit)
