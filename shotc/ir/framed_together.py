@@ -192,7 +192,7 @@ def _assigned(
 
     shifts = all(w.uv is None for w in required)
 
-    def changed(order: tuple[Vec2 | None, ...]) -> tuple[int, float, float]:
+    def sort_key(order: tuple[Vec2 | None, ...]) -> tuple[int, float, float]:
         moves = [
             (p[0] - at[i][0], p[1] - at[i][1]) for i, p in zip(silent, order, strict=True) if p is not None
         ]
@@ -200,7 +200,7 @@ def _assigned(
         relative = sum(dist(move, shift) ** 2 for move in moves)
         return len(order) - len(moves), round(relative, 6), sum(hypot(*move) for move in moves)
 
-    best = min(permutations(spots[:8], len(silent)), key=changed)
+    best = min(permutations(spots[:8], len(silent)), key=sort_key)
     settled = list(subjects)
     for i, place in zip(silent, best, strict=True):
         settled[i] = at_place(subjects[i], place)

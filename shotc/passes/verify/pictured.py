@@ -87,7 +87,7 @@ def asked(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, t
 
     Those are the times between two keyframes of its own, because while the camera turns from one target to
     the next, neither can be whole in the frame. If a shot never has its target at two consecutive keyframes,
-    it is judged up to the middle of its ways.
+    it is judged up to the middle of its ways, and as far as the plan frames it beyond that.
     """
     if placed.shot.ideal is not None and not is_keyed(placed.shot):
         return np.full(len(times), any(s.target == target for s in placed.subjects))
@@ -96,7 +96,11 @@ def asked(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, t
         return framed(flight.track, placed.shot.id, target, times)
     own = [span for span in spans if span.keeps and span.before.target == target]
     judged = [TargetSpan(s.start - s.before.hold, s.end + s.after.hold) for s in own]
-    return _in_any(judged or [part for s in spans for part in _parts(flight, s, target)], times)
+    if judged:
+        return _in_any(judged, times)
+    halves = [part for s in spans for part in _parts(flight, s, target)]
+    # A plan may frame it a little longer; what it shows then counts, too.
+    return _in_any(halves, times) | framed(flight.track, placed.shot.id, target, times)
 
 
 def _parts(

@@ -103,7 +103,7 @@ def swung(channel: int, by: float) -> Piecewise:
 
 
 @pytest.mark.parametrize(("channel", "name", "most"), [
-    (CAM_YAW, BETWEEN, 0.2), (CAM_PITCH, BETWEEN, 0.2), (HFOV, LENS_BETWEEN, 1e-3),
+    (CAM_YAW, BETWEEN, 0.5), (CAM_PITCH, BETWEEN, 0.5), (HFOV, LENS_BETWEEN, 1e-3),
 ])  # fmt: skip
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize(("share", "holds"), [(0.99, True), (1.01, False)])
@@ -130,25 +130,23 @@ def test_a_camera_may_turn_and_zoom_from_one_keyframe_to_the_next() -> None:
     assert [found[name].worst for name in (BETWEEN, LENS_BETWEEN)] == [0.0, 0.0]
 
 
-@pytest.mark.parametrize(("beyond", "holds"), [(0.449, True), (0.451, False)])
+@pytest.mark.parametrize(("beyond", "holds"), [(0.749, True), (0.751, False)])
 def test_a_camera_may_swing_by_a_quarter_of_its_turn_beyond_it(beyond: float, holds: bool) -> None:
-    """It turns by 1 rad, so 0.25 rad count beside the 0.2 rad of a camera that does not turn."""
+    """It turns by 1 rad, so 0.25 rad count beside the 0.5 rad of a camera that does not turn."""
     curve = lines(HALF_WAY)
     ctrl = curve.ctrl.copy()
     k = int(np.searchsorted(curve.breaks, 9.0))
     ctrl[k - 1, -1, CAM_YAW] = ctrl[k, 0, CAM_YAW] = 1.0 + beyond
     ctrl[k, -1, CAM_YAW] = ctrl[k + 1, 0, CAM_YAW] = 1.0
     claim = looked(shot(BOTH[0], BOTH[1]._replace(yaw=1.0)), curve=Piecewise(curve.breaks, ctrl))[BETWEEN]
-    assert (claim.worst, claim.limit) == (pytest.approx(beyond, rel=1e-3), pytest.approx(0.45))
+    assert (claim.worst, claim.limit) == (pytest.approx(beyond, rel=1e-3), pytest.approx(0.75))
     assert claim.holds is holds
 
 
-def test_a_camera_that_follows_a_target_turns_as_it_does() -> None:
+def test_a_camera_that_follows_a_target_up_to_the_middle_of_a_way_turns_as_it_does() -> None:
     framed = tuple(k._replace(target="mast", reference=(0.0, 0.0)) for k in BOTH)
-    assert BETWEEN not in looked(shot(*framed), curve=swung(CAM_YAW, 1.0))
-    # From one target to another it turns steadily.
-    other = (framed[0], framed[1]._replace(target="tower"))
-    assert looked(shot(*other), curve=swung(CAM_YAW, 1.0))[BETWEEN].worst == pytest.approx(1.0, rel=1e-3)
+    for ends in (framed, (framed[0], framed[1]._replace(target="tower")), (framed[0], BOTH[1])):
+        assert BETWEEN not in looked(shot(*ends), curve=swung(CAM_YAW, 1.0))
 
 
 @pytest.mark.parametrize(("off", "holds"), [(0.99e-3, True), (1.01e-3, False)])
