@@ -129,16 +129,20 @@ def _between(flight: JudgedFlight, placed: PlacedShot, spans: list[KeyframedSpan
         limit = Limit("lens between keyframes", LENS_RAD, "rad", shot.path, shot=shot.id)
         beyond = (_beyond(flight, HFOV, s, (s.before.hfov, s.after.hfov), LENS_RAD) for s in ways)
         yield bounded(flight, limit, max(beyond, key=lambda bound: bound.proven))
-    free = [s for s in ways if s.before.reference is None and s.after.reference is None]
+    angles = [_angles_at(flight, span) for span in ways]
+    free = [
+        (span, ends)
+        for span, ends in zip(ways, angles, strict=True)
+        if span.before.reference is None and span.after.reference is None
+    ]
     if not free or (flight.mission.rules.look_ahead is not None and looks_along(shot)):
         return
-    angles = [_angles_at(flight, span) for span in ways]
     most = SWUNG_RAD + SWING_SHARE * max(float(np.abs(b - a).max()) for a, b in angles)
     limit = Limit("direction between keyframes", most, "rad", shot.path, shot=shot.id)
     swings = (
         _beyond(flight, channel, span, (float(a), float(b)), most)
-        for span in free
-        for channel, a, b in zip((CAM_YAW, CAM_PITCH), *_angles_at(flight, span), strict=True)
+        for span, ends in free
+        for channel, a, b in zip((CAM_YAW, CAM_PITCH), *ends, strict=True)
     )
     yield bounded(flight, limit, max(swings, key=lambda bound: bound.proven))
 

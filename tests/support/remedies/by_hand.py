@@ -56,7 +56,6 @@ FILES = {
 }
 """Files that lie beside every mission: what the author has at hand."""
 
-TRACK = "track: {points: [[0, 0, 0.9], [60, 0, 0.9]], "
 SIDE = "kind: lateral, drone: cam1, target: tower, side: left, distance: 8, altitude: 4,"
 NEAR = "subjects: [{target: runner, frame: [-0.27, 0.0], size: 0.3, view: {azimuth: 270 deg}},"
 HOME, LINE = "home: under the tree", "look_at: tower, heading: 10 deg"

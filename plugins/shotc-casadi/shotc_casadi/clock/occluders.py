@@ -144,12 +144,13 @@ def with_occluders(
     count = next((c for c in COUNTS if c >= most), most)
     sight_lines = np.zeros((len(eyes), count, SIGHT_LINE_PARAMETERS))
     sight_lines[:, :, 12] = NO_OCCLUDER_DV
-    maps = [occluder.scales(eyes, points[:, occluder.before]) for occluder in occluders]
+    some = np.flatnonzero(near.any(axis=1))
+    maps = {j: occluders[j].scales(eyes, points[:, occluders[j].before]) for j in map(int, some)}
     for k in range(len(eyes)):
-        for i, j in enumerate(np.flatnonzero(near[:, k])):
-            occluder = occluders[int(j)]
+        for i, j in enumerate(map(int, np.flatnonzero(near[:, k]))):
+            occluder = occluders[j]
             sight_lines[k, i] = [
-                *maps[int(j)][k].T.ravel(),
+                *maps[j][k].T.ravel(),
                 *occluder.centres[k],
                 1.0,
                 *points[k, occluder.before],

@@ -384,8 +384,7 @@ def test_two_drones_on_near_pads_take_off_in_layers_and_are_proved_in_the_air_an
     coef = np.concatenate([first, up.coef, last], axis=1)
     stands = replace(up, breaks=STEP * np.arange(coef.shape[1] - 2), coef=coef)
     found = separations([FleetFlight.of(mission(fleets=(near,)), stands)])
-    worst = {claim.constraint: claim.worst for claim in found}
-    assert worst == {
+    assert {claim.constraint: claim.worst for claim in found} == {
         "separation in the air": pytest.approx(0.7, abs=1e-6),
         "separation on pads": pytest.approx(0.7, abs=1e-6),
     }

@@ -96,7 +96,8 @@ def drawn(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -
 
     frames : of the display, each of a picture that it has
     """
-    judged = [lit for s in frames if (lit := _lit(flight, display, s)) is not None]
+    figures = [_figure(picture) for picture in display.pictures]
+    judged = [lit for s in frames if (lit := _lit(flight, display, s, figures[s.picture])) is not None]
     for name, measure in (
         ("light off its picture", _off),
         ("picture without lights", _bare),
@@ -106,7 +107,7 @@ def drawn(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -
         if judged:
             worst = max((measure(one) for one in judged), key=lambda m: m.used)
             yield _claim(flight, display, name, worst)
-    unjudged = sum(_figure(picture) is None for picture in display.pictures)
+    unjudged = sum(figure is None for figure in figures)
     if unjudged:
         limit = Limit("pictures of a file", float(len(display.pictures)), "", display.path, shot=display.id)
         yield held(flight.fleet.name, limit, WorstValue(float(unjudged), None, "exact"))
@@ -122,10 +123,9 @@ def _claim(flight: FleetFlight, display: Display, name: str, worst: _Measured) -
     return held(subject, limit, WorstValue(worst.value, time, "exact", (x, y, z)), (drone,))
 
 
-def _lit(flight: FleetFlight, display: Display, stand: FrameTimes) -> _Lit | None:
+def _lit(flight: FleetFlight, display: Display, stand: FrameTimes, figure: Figure | None) -> _Lit | None:
     """Return a picture with its lights, if both are known."""
     picture = display.pictures[stand.picture]
-    figure = _figure(picture)
     numbers = np.flatnonzero(shining(flight, stand))
     if figure is None or not len(numbers):
         return None

@@ -57,12 +57,11 @@ def _box(box: Box, fill: Fill) -> Figure:
     def off(places: Array) -> Array:
         """Distance from the inside, the faces or the edges: that of the 0, 1 or 2 nearest pairs of sides."""
         beyond = np.abs((places - centre) @ axes.T) - half
-        outside = np.maximum(beyond, 0.0)
         near = np.sort(beyond, axis=1)[:, ::-1]
         bound = {"volume": 0, "surface": 1, "outline": 2}[fill]
         # Of the sides that bind, the distance counts from within as well.
         held = np.where(np.arange(3) < bound, near, np.maximum(near, 0.0))
-        return np.asarray(np.linalg.norm(held if bound else outside, axis=1))
+        return np.asarray(np.linalg.norm(held, axis=1))
 
     if fill == "volume":
         local = _cells(box.size, ACROSS)
