@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.camera import yaw_of
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Deferred, Ideal
 from shotc.kinds.base import Aim, Expansion, Kind, Part, Place, Scene
@@ -18,17 +19,21 @@ from shotc.kinds.moving import timed
 from shotc.spec.fields import LookAt, Pitch, Position, RelativePath
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import OneOf
+from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
 
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "height"))
 THINNED_M = 0.5  # metres, tolerance to which a recorded track is reproduced
 CHUNK_POINTS = 128  # points that are thinned together
 MOST_KEYFRAMES = 400  # most keyframes; a path with more is noise
-Along = Annotated[str, NamedOr("Along", {"along": "along"}, "heading")]
+ALONG = "along"
+Course = Annotated[float | str, NamedOr("Course", {ALONG: ALONG}, "heading", Quantity("Angle", "angle"))]
 
 
 class FollowPathShot(ShotBase):
-    """The parameters of a path; without `look_at` the camera looks at the target, or else along the path."""
+    """The parameters of a path; without `look_at` and `heading` the camera looks at the target, or else along
+    the path.
+    """
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
         OneOf((("points",), ("file",))),
@@ -43,8 +48,10 @@ class FollowPathShot(ShotBase):
         default=None, description="a CSV file with x,y,z or lat,lon,height, or a GPX file"
     )
     look_at: LookAt | None = Field(default=None, description="target or position to look at")
-    heading: Along | None = Field(default=None, description="`along`: look the way the path goes")
-    pitch: Pitch = Field(default=0.0, description="elevation of the camera where it looks along the path")
+    heading: Course | None = Field(
+        default=None, description="compass heading of the camera, or `along`: look the way the path goes"
+    )
+    pitch: Pitch = Field(default=0.0, description="elevation of the camera that has a heading")
 
 
 def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
@@ -57,8 +64,9 @@ def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
     aims = _aims(shot, scene, [at for at, _ in points])
     if not isinstance(aims, list):
         return Expansion.of([aims])
+    fixed = shot.heading if isinstance(shot.heading, float) else None
     parts: list[Part] = [
-        scene.keyframe(at, target, aim=aim, placed=True, path=(*scene.path, *path))
+        scene.keyframe(at, target, aim=aim, heading=fixed, placed=True, path=(*scene.path, *path))
         for (at, path), (aim, target) in zip(points, aims, strict=True)
     ]
     return Expansion.of(parts)
@@ -146,7 +154,8 @@ def _aims(shot: FollowPathShot, scene: Scene, points: list[Vec3]) -> list[Aim] |
     if shot.heading is None and (shot.look_at is not None or shot.target is not None):
         aim = scene.aim(shot, _Look(shot.look_at))
         return aim if isinstance(aim, Diagnostic | Deferred) else [aim] * len(points)
-    return [((yaw, shot.pitch), None) for yaw in _courses(points)]
+    yaws = [yaw_of(shot.heading)] * len(points) if isinstance(shot.heading, float) else _courses(points)
+    return [((yaw, shot.pitch), None) for yaw in yaws]
 
 
 def _courses(points: list[Vec3]) -> list[float]:

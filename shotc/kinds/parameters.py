@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Keyframe
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 
 DISTANCES = {
     "orbit": "radius",
@@ -16,6 +16,22 @@ DISTANCES = {
     "crane": "distance",
 }
 """Name of the distance from the target's axis, by kind; each of these kinds also has `altitude`."""
+
+
+FROM_ABOVE = "top-down"
+"""The kind whose `altitude` is its distance: its camera stands over the target."""
+
+
+def distance_key(kind: str) -> str | None:
+    """Return the name of the parameter that sets how far a generated path is from its target, if any."""
+    return "altitude" if kind == FROM_ABOVE else DISTANCES.get(kind)
+
+
+def as_counted(mission: MissionIR, shot: Shot, altitude: str) -> str:
+    """Return an altitude as it is written, with its reference where the shot has one."""
+    if (*shot.path, "altitude", "above") not in mission.origins.values:
+        return altitude
+    return f"{{above: {shot.above}, height: {altitude}}}"
 
 
 def at_distance(centre: Vec3, keyframe: Keyframe, distance: float) -> Keyframe:

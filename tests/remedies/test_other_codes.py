@@ -42,9 +42,9 @@ TWO = "c0: {model: x500, home: [-30, -70, 0]}\n  c1: {model: x500, home: [40, 30
 SHARP = ", camera: {sensor: 36 mm, focal_length: 85 mm, aperture: f/1.4}"
 WALL = "{zones: {wall: {keep: out, box: {center: [-20, 0, 9], size: [1, 30, 18]}}}}"
 CASES = [
-    Case("G010", 2, CAM, ("kind: static, drone: cam, at: [0, -20, 12], look_at: tower",)),
-    Case("G010", 2, CAM, ("kind: orbit, drone: cam, target: mast, radius: 12, altitude: 6, sweep: 90 deg",)),
-    Case("G010", 1, CAM.replace("MORE", SHARP),
+    Case("G010", 3, CAM, ("kind: static, drone: cam, at: [0, -20, 12], look_at: tower",)),
+    Case("G010", 3, CAM, ("kind: orbit, drone: cam, target: mast, radius: 12, altitude: 6, sweep: 90 deg",)),
+    Case("G010", 2, CAM.replace("MORE", SHARP),
         ("kind: static, drone: cam, at: [-55, 0, 10], look_at: tower",)),
     Case("V061", 2, CAM.replace("MORE", SHARP),
         ("kind: static, drone: cam, at: [-95, 0, 10], look_at: tower, focus: 20 m",)),

@@ -7,8 +7,17 @@ from math import hypot
 
 from shotc.diag.model import Label
 from shotc.geom.vec import Vec3
+from shotc.ir.ground import counted_from
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
+from shotc.kinds.parameters import (
+    DISTANCES,
+    FROM_ABOVE,
+    as_counted,
+    at_distance,
+    distance_key,
+    distance_of,
+    span,
+)
 from shotc.planning.framing.candidates import FixedCamera
 from shotc.rounding import at_least, up
 
@@ -23,8 +32,10 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCa
     """Return a remedy with a place where the target fits, within ``FARTHEST_RATIO`` times as far; else empty.
 
     A camera placed by the user goes straight back, or horizontally where that would be too close to the
-    ground. A generated path keeps its altitude.
+    ground. A generated path keeps its altitude, but a view from above gets another one.
     """
+    if not keyframe.placed and shot.kind == FROM_ABOVE:
+        return _by_altitude(mission, shot, keyframe, setting, fits)
     if not keyframe.placed and shot.kind in DISTANCES:
         return _by_parameter(mission, shot, keyframe, setting, fits)
     off_axis = hypot(*setting.offset[:2]) > ABOVE_AXIS_M
@@ -55,9 +66,8 @@ def _place(keyframe: Keyframe, setting: FixedCamera, offset: Vec3) -> Vec3:
 
 def parameter_label(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Label | None:
     """Return a label on the parameter that sets a generated path's distance, if its kind has one."""
-    if keyframe.placed or shot.kind not in DISTANCES:
-        return None
-    return mission.origins.value((*shot.path, DISTANCES[shot.kind]))
+    key = distance_key(shot.kind)
+    return None if keyframe.placed or key is None else mission.origins.value((*shot.path, key))
 
 
 def least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
@@ -112,3 +122,24 @@ def _by_parameter(
         first, last = enough + first - near, enough + last - near
     written = span(max(first, enough), max(last, enough))
     return f"write `{DISTANCES[shot.kind]}: {written}`"
+
+
+def _by_altitude(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCamera, fits: Fits) -> str:
+    """Return a remedy with the altitude from which a view from above shows the target at every keyframe."""
+    assert keyframe.target is not None
+    target, (x, y, low) = mission.target(keyframe.target), shot.keyframes[0].at
+    centre = target.centre
+
+    def whole(high: float) -> bool:
+        """Return whether the target fits at all keyframes, with the first so high over its centre."""
+        rise = high + centre[2] - low
+        places = [(k.at[0], k.at[1], k.at[2] + rise) for k in shot.keyframes]
+        offsets = [(centre[0] - a, centre[1] - b, centre[2] - c) for a, b, c in places]
+        return all(fits(setting._replace(offset=offset)) for offset in offsets)
+
+    now = low - centre[2]
+    enough = least(whole, now, now * FARTHEST_RATIO) if now > 0.0 else None
+    if enough is None or shot.above is None:
+        return ""
+    counted = enough + centre[2] - counted_from(shot.above, mission.ground, (x, y), target.foot[2])
+    return f"write `altitude: {as_counted(mission, shot, f'{at_least(counted, 1)}')}`"

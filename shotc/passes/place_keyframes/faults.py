@@ -80,10 +80,7 @@ def off_composition(keyframe: Keyframe, setting: FixedCamera, requested: Vec2, p
         abs(place[1]),
         f"target `{keyframe.target}` would be cropped at every place of `{keyframe.composition.name}`",
         (instead,),
-        lambda mission, shot: (
-            f"{_what_fits(keyframe, setting, mission, shot)}, or "
-            f"{_to_keep(keyframe, mission)} to allow cropping"
-        ),
+        partial(_what_fits_or_keep, keyframe, setting),
     )
 
 
@@ -183,7 +180,7 @@ def does_not_fit(keyframe: Keyframe, setting: FixedCamera, requested: Vec2) -> M
             f"wherever `{keyframe.composition.name}` puts it, at least {over:.2f} m are cropped, "
             f"{_range(setting)} and {degrees(setting.hfov):.1f} deg wide",
         ),
-        partial(_what_fits, keyframe, setting),
+        partial(_what_fits_or_keep, keyframe, setting),
     )
 
 
@@ -246,6 +243,12 @@ def _within_reach(setting: FixedCamera, pitch: float) -> str:
     enough = (at_least if above else at_most)(degrees(pitch), 1)
     level = "higher" if above else "lower"
     return f"let the gimbal pitch to {enough} deg, or fly {level} or farther away"
+
+
+def _what_fits_or_keep(keyframe: Keyframe, setting: FixedCamera, mission: MissionIR, shot: Shot) -> str:
+    """Return what shows the whole target, or how to crop it on purpose."""
+    whole = _what_fits(keyframe, setting, mission, shot)
+    return f"{whole}, or {_to_keep(keyframe, mission)} to allow cropping"
 
 
 def _what_fits(keyframe: Keyframe, setting: FixedCamera, mission: MissionIR, shot: Shot) -> str:

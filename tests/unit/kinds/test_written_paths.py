@@ -81,6 +81,16 @@ def test_a_path_looks_along_itself_or_at_what_it_is_told() -> None:
     assert framed[1].path == ("shots", 0, "points", 1)
 
 
+def test_a_path_may_keep_one_heading() -> None:
+    """Surveys and flights along a facade look one way, whatever the way of the drone."""
+    points = "points: [[0, 30, 9], [0, 60, 9], [30, 60, 9]]"
+    survey = keyframes(f"kind: follow-path, {points}, heading: 270 deg, pitch: -90 deg")
+    assert [k.aim for k in survey] == [pytest.approx((pi, -pi / 2))] * 3
+    assert [(k.heading, k.target) for k in survey] == [(pytest.approx(1.5 * pi), None)] * 3
+    level = keyframes(f"kind: follow-path, {points}, heading: 90 deg")
+    assert [k.aim for k in level] == [pytest.approx((0.0, 0.0))] * 3
+
+
 def test_a_vertical_stretch_keeps_the_course() -> None:
     lift = keyframes(
         "kind: follow-path, points: [[0, 30, 9], [0, 30, 19], [0, 60, 19], [0, 60, 9]], heading: along"

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.passes.resolve.checks.heights import as_counted
+from shotc.kinds.parameters import DISTANCES, as_counted, at_distance, distance_of, span
 from shotc.planning.clearances import ROUNDING_M, clearances_of
 from shotc.planning.framing.placing import place_shot
 

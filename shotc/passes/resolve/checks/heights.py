@@ -12,6 +12,7 @@ from shotc.ir.ground import counted_from
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
+from shotc.kinds.parameters import as_counted
 from shotc.passes.resolve.lower.world import BURIED_SHARE
 from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import at_least, up
@@ -127,13 +128,6 @@ def raised(mission: MissionIR, shot: Shot, film: Way, metres: float) -> str:
     bases = (counted_from(above, mission.ground, at[:2], foot or 0.0) for at, foot in film)
     heights = [up(at[2] - base + metres) for (at, _), base in zip(film, bases, strict=True)]
     return f"write `altitude: {as_counted(mission, shot, _written(heights))}`"
-
-
-def as_counted(mission: MissionIR, shot: Shot, altitude: str) -> str:
-    """Return an altitude as it is written, with its reference where the shot has one."""
-    if (*shot.path, "altitude", "above") not in mission.origins.values:
-        return altitude
-    return f"{{above: {shot.above}, height: {altitude}}}"
 
 
 def _span(values: list[float]) -> str:
