@@ -70,7 +70,9 @@ HELD: tuple[CodeInfo, ...] = (
             "are on it, all of it has lights, and both have the same middle and width, as far as the number of drones and their "
             "separation allow; the page on outputs has the limits. Pictures of files, and texts in other fonts than the "
             "default one, are not judged so, since a plan does not hold the files; nor are the colours of a file without "
-            "`color`. The claim `pictures of a file` counts them. Plan the mission again.",
+            "`color`. The claim `pictures of a file` counts them. Between two pictures the lights fade evenly, and on the way up "
+            "and down they are dark. Every effect of lights is there, in its order, with its blend, colours, times and place, and "
+            "no other; which lights sparkle, and the pixels of an image, are left open. Plan the mission again.",
         ),
     ),
     verified(
