@@ -52,6 +52,13 @@ def test_a_turn_goes_on_at_the_waypoint_at_which_the_vehicle_stays() -> None:
     assert turned.body[-1] == pytest.approx(np.pi / 2)
 
 
+def test_a_px4_turns_to_the_heading_of_a_waypoint_from_the_beginning_of_the_leg_to_it() -> None:
+    """From East to North at 45 deg/s, over 20 m at 5 m/s: turned after 2 s, which is 10 m."""
+    turned = flown(to(20.0, heading=0.0))
+    for east, yaw in ((0.0, 0.0), (5.0, np.pi / 4), (10.0, np.pi / 2), (20.0, np.pi / 2)):
+        assert turned.body[int(np.abs(turned.place[:, 0] - east).argmin())] == pytest.approx(yaw, abs=4e-3)
+
+
 def test_a_recording_lasts_as_long_as_its_legs_and_its_stays() -> None:
     assert flown(Item(2500, 2, (0.0,) * 7), to(20.0, stay=3.0)).filmed == pytest.approx(7.0)
 

@@ -1,9 +1,9 @@
 """A vehicle of few rules that flies a mission file: those of ``outputs.md``, and of the MAVLink commands.
 
-Straight legs at the speeds that were commanded last. A PX4 has a waypoint's heading on the whole leg to it,
-an ArduPilot turns as it was told, and as a whole where its gimbal cannot turn. A vehicle stays at a waypoint
-after it has arrived there, and turns on meanwhile. A gimbal looks at the region of interest, or stands as it
-was commanded: against the body, or with its yaw from North where the command locks it.
+Straight legs at the speeds that were commanded last. A PX4 turns to a waypoint's heading from the beginning
+of the leg to it, an ArduPilot as it was told, and as a whole where its gimbal cannot turn. A vehicle stays at
+a waypoint after it has arrived there, and turns on meanwhile. A gimbal looks at the region of interest, or
+stands as it was commanded: against the body, or with its yaw from North where the command locks it.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ FOCUS, METRES = 532, 3  # and the type in which it is a distance
 STEP = 0.02  # metres between two points of a leg
 POINTS = 20  # of a leg at least, and of a stay
 YAW_LOCK = 16  # bit of parameter 5 of POINT_GIMBAL
+PX4_TURN = np.radians(45.0)  # rad/s
 CAN_PAN = np.radians(1.0)  # range from which a gimbal turns by itself
 
 
@@ -118,13 +119,18 @@ def _leg(now: Vehicle, item: Item) -> Flown:
 
 def _facing(now: Vehicle, item: Item, place: Array, time: Array) -> Array:
     if now.drone["autopilot"] == "px4":
-        return np.full(len(time), np.pi / 2 - np.radians(item.params[3]))
+        by = _shortest(np.pi / 2 - np.radians(item.params[3]) - now.yaw)
+        return now.yaw + np.clip(by, -PX4_TURN * time, PX4_TURN * time)
     if now.region is not None and not now.pans:
         return _towards(now.region, place)[0]
     if now.turn is None:
         return np.full(len(time), now.yaw)
     to, rate = now.turn
     return np.asarray(to - np.copysign(np.maximum(abs(to - now.yaw) - abs(rate) * time, 0.0), rate))
+
+
+def _shortest(turn: float) -> float:
+    return float((turn + np.pi) % (2 * np.pi) - np.pi)
 
 
 def _towards(region: Array, place: Array) -> tuple[Array, Array]:
@@ -142,7 +148,7 @@ def _speed(now: Vehicle, item: Item) -> Vehicle:
 
 def _turn(now: Vehicle, item: Item) -> Vehicle:
     heading, rate, way, _ = item.params[:4]
-    by = (np.pi / 2 - np.radians(heading) - now.yaw + np.pi) % (2 * np.pi) - np.pi
+    by = _shortest(np.pi / 2 - np.radians(heading) - now.yaw)
     if way:  # 1 is clockwise, as yaw is not
         by = by % (2 * np.pi) - (2 * np.pi if way > 0 else 0.0)
     return replace(now, turn=(now.yaw + by, float(np.copysign(np.radians(rate), by))))
