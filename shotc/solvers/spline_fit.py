@@ -15,6 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import SplineFunctionals, control_rows, count, energy_rows, value_rows
 from shotc.solvers.cone_rows import ConeRows
 from shotc.solvers.conic import Status
+from shotc.solvers.equality_qp import minimise_under_equalities
 from shotc.solvers.spline_problem import scalar_map, terms
 
 SOLVER_TOLERANCE = 1e-8
@@ -48,6 +49,8 @@ class Fit:
 def fit(task: Fit) -> tuple[Status, Array]:
     """Return the status and the coefficients, shape (P + 5,); zeros unless SOLVED or INACCURATE."""
     coef = _unbounded(task)
+    if coef is None:
+        return Status.FAILED, np.zeros(count(task.breaks))
     if task.low is None or task.high is None:
         return Status.SOLVED, coef
     points = control_rows(task.breaks).apply(coef[:, None])[:, 0]
@@ -83,27 +86,28 @@ def _least_squares(task: Fit) -> tuple[Any, Array]:
     return vstack(parts, format="csr"), rhs
 
 
-def _unbounded(task: Fit) -> Array:
-    from scipy.sparse import bmat
-    from scipy.sparse.linalg import spsolve
-
+def _unbounded(task: Fit) -> Array | None:
+    """Return the coefficients of the best curve without bounds; None if they are not unique."""
     matrix, rhs = _least_squares(task)
     size = matrix.shape[1]
     binding, bound = _anchors(task)
     fixed = scalar_map(binding, size) if len(bound) else _mean(task, size)
     bound = bound if len(bound) else np.array([np.average(task.value, weights=task.weight)])
-    system = bmat([[matrix.T @ matrix, fixed.T], [fixed, None]], format="csc")
-    return np.asarray(spsolve(system, np.concatenate([matrix.T @ rhs, bound]))[:size])
+    slope = (matrix.T @ rhs)[:, None]
+    solved = minimise_under_equalities(matrix.T @ matrix, slope, fixed, bound[:, None])
+    return None if solved is None else solved[:, 0]
 
 
 def _mean(task: Fit, size: int) -> Any:
-    """Return the row of the samples' weighted mean, (1, P + 5).
+    """Return the sparse row of the samples' weighted mean, (1, P + 5).
 
     A constant has no energy, so the mean of the optimum is that of the values. Without anchors, this equation
     keeps the system regular where the weights are tiny beside the stiffness.
     """
+    from scipy.sparse import csr_matrix
+
     samples = scalar_map(value_rows(task.breaks, task.at), size)
-    return (samples.T @ (task.weight / task.weight.sum()))[None]
+    return csr_matrix((samples.T @ (task.weight / task.weight.sum()))[None])
 
 
 def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:

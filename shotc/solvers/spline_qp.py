@@ -17,6 +17,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import SplineFunctionals
 from shotc.solvers.cone_rows import ConeRows, Term, WarmStart
 from shotc.solvers.conic import Status
+from shotc.solvers.equality_qp import minimise_under_equalities
 from shotc.solvers.spline_problem import (
     EVERY,
     Cones,
@@ -109,7 +110,7 @@ def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
     return SplineProblem(
         problem.size,
         tuple(replace(g, value=np.zeros_like(g.value)) for g in problem.goals),
-        replace(problem.equalities, value=np.zeros_like(problem.equalities.value)),
+        replace(problem.equalities, value=problem.equalities.value - of(problem.equalities.rows)),
         tuple(replace(f, offset=f.offset - (of(f.rows) * f.normal).sum(axis=1)) for f in problem.half_spaces),
         tuple(replace(c, centre=c.centre - of(c.rows, c.axes)) for c in problem.cones),
     )
@@ -153,32 +154,31 @@ def _unbounded(problem: SplineProblem, squares: list[Square]) -> Array | None:
 
     If it keeps all bounds, soft ones included, it is the optimum of the whole problem.
     """
-    from scipy.sparse import bmat
-    from scipy.sparse.linalg import splu
-
     through = scalar_map(problem.equalities.rows, problem.size)
     coef = np.zeros((problem.size, 3))
     for square in squares:
         if not square.goals:
             return None
-        system = bmat([[square.gram, through.T], [through, None]], format="csc")
         equal = problem.equalities.value[:, square.axes]
-        try:
-            solved = splu(system).solve(np.concatenate([square.slope(problem.goals), equal]))
-        except RuntimeError:  # singular: goals and equalities leave a direction free
+        solved = minimise_under_equalities(square.gram, square.slope(problem.goals), through, equal)
+        if solved is None:
             return None
-        coef[:, square.axes] = solved[: problem.size]
-    return coef if np.isfinite(coef).all() else None
+        coef[:, square.axes] = solved
+    return coef
 
 
 def _keeps(problem: SplineProblem, coef: Array) -> bool:
     """Return whether coefficients keep every equality and bound; NaN keeps none."""
-    miss = np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value)
     return (
-        bool((miss <= MISS_M).all())
+        _miss(problem, coef) <= MISS_M
         and all(((f.rows.apply(coef) * f.normal).sum(axis=1) >= f.offset).all() for f in problem.half_spaces)
         and all((_lengths(cone, coef) <= cone.bound).all() for cone in problem.cones)
     )
+
+
+def _miss(problem: SplineProblem, coef: Array) -> float:
+    """Return the largest violation of an equality, metres."""
+    return float(np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max(initial=0.0))
 
 
 def _lengths(cone: Cones, coef: Array) -> Array:
@@ -232,7 +232,7 @@ def programme(
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))
     coef = np.ascontiguousarray(x[: 3 * problem.size].reshape(3, problem.size).T)
-    if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS_M:
+    if _miss(problem, coef) > MISS_M:
         return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
     excess = float(np.concatenate(price)[3 * problem.size :] @ x[3 * problem.size :])
     return SplineSolution(status, coef, _energy(problem, coef), excess)

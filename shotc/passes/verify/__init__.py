@@ -22,6 +22,7 @@ from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.course import course
 from shotc.passes.verify.energy import energy
 from shotc.passes.verify.filmed_pictures import not_standing
+from shotc.passes.verify.fleets import fleet_claims, fleet_structure
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.looking import looking
 from shotc.passes.verify.loss import losses
@@ -64,7 +65,7 @@ class Verify:
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     """Return all claims about a trajectory, in a fixed order, and the diagnostics of broken ones."""
     mission = ir.keyframes.mission
-    broken = (*structure(ir), *_fleet_structure(ir))
+    broken = (*structure(ir), *fleet_structure(ir))
     if broken:
         return Verdict((), broken)
     everyone = bodies(ir)
@@ -98,29 +99,12 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         *separation(flights, on_pads),
         *from_fleets(ir, flights),
         *sights(present),
-        *_fleet_claims(ir, ctx),
+        *fleet_claims(ir, ctx.progress),
     ]
     certificate = tuple(claims)
     diagnostics = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
     diagnostics += (*unsharp(ir, certificate), *not_standing(ir))
     return Verdict(certificate, (*_grounded(ir), *diagnostics), tuple(covered))
-
-
-def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:
-    if not ir.fleets:
-        return []
-    # Imports splines and trees of scipy, which films do not need.
-    from shotc.passes.verify.fleets import fleet_structure
-
-    return list(fleet_structure(ir))
-
-
-def _fleet_claims(ir: TrajectoryIR, ctx: PassContext) -> list[Claim]:
-    if not ir.fleets:
-        return []
-    from shotc.passes.verify.fleets import fleet_claims
-
-    return fleet_claims(ir, ctx.progress)
 
 
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:

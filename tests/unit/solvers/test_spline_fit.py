@@ -42,7 +42,7 @@ def test_values_that_hardly_weigh_pull_a_curve_without_anchors_to_their_mean(
     none, stiff = np.empty(0), (1.0, min(4.0, length) ** 4)
     status, coef = fit(Fit(breaks, at, value, weight, none, none, stiff))
     assert status is Status.SOLVED
-    assert np.abs(coef - value.mean()).max() < 1e-6
+    assert np.abs(coef - value.mean()).max() < 1e-5  # ten times the rounding of 60 pieces in 5 cm
 
 
 @pytest.mark.parametrize("beyond", [5e-7, 1e-3])

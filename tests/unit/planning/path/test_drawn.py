@@ -107,6 +107,18 @@ def test_whatever_is_drawn_is_flown_near_its_lines(seed: int, refiner: str) -> N
 
 @pytest.mark.slow
 @pytest.mark.parametrize("refiner", ["none", "ours"])
+@pytest.mark.parametrize("metres", [1500.0, 9000.0])
+def test_a_long_path_passes_its_points(metres: float, refiner: str) -> None:
+    """Legs of kilometres with half-widths of 5 m have pieces of a few metres beside long ones."""
+    points = [(metres * x, metres * y, 60.0) for x, y in ((-1, -0.4), (-0.6, -0.6), (0.2, -0.5), (0.7, -0.6))]
+    text = mission(points).replace("-20, -30, 0", f"{-0.98 * metres}, {-0.4 * metres}, 0")
+    (track,) = planned(text.replace("x500,", "x500, endurance: 200 min,"), refiner).trajectory.drones
+    flown = track.curve(np.array([k.time for k in track.keyframes]))[:, :3]
+    assert np.abs(flown - np.array(points)).max() < 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("refiner", ["none", "ours"])
 def test_what_is_told_is_what_is_flown(refiner: str) -> None:
     plan = planned(mission(SURVEY), refiner)
     flown = max(off_legs(plan, SURVEY))
