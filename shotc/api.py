@@ -17,8 +17,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.plugin_faults import plugin_failed
 from shotc.diag.registry import has_errors, stops, without_answered
 from shotc.emit.base import Artifact, Emission, Emitter
-from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import KeyframeIR, Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
 from shotc.ir.source import Autopilot, MissionSource

@@ -13,8 +13,7 @@ from shotc import plugins
 from shotc.checking import models_of
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import KeyframeIR, Lowered
 from shotc.ir.passes import PassContext
 from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, flown_by, kept_files
 from shotc.passes.resolve.lower.names import AUTO

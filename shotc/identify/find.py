@@ -17,7 +17,6 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.camera import ScreenBox
 from shotc.identify.choice import Choice, by_own_rays
 from shotc.identify.clusters import LOOSE, NOBODY, Points, clusters
-from shotc.identify.complete import hidden_corners
 from shotc.identify.cylinders import Upright, enclosing
 from shotc.identify.owners import owners_of
 from shotc.identify.views import GROUND, SKY, TILE_RAYS, CameraPose, RayHits, look
@@ -35,6 +34,10 @@ boxes by hand.
 """
 NAMED_SHARE = 0.6
 """Least share of a cluster's points on one named part, for the cluster to have its name."""
+MARGIN_HALF_SIDES = 1.5
+"""Size of a box, in its half sides, inside which a body lies if the box is drawn around it."""
+LEAST_SHARE = 0.02
+"""Least share of a target's points on a body that belongs to it."""
 
 
 class Glance(NamedTuple):
@@ -218,3 +221,41 @@ def held(seen: RayHits) -> RayShares:
     border = (RAYS - BOX_RAYS) // 2
     mesh = seen.mesh[border : RAYS - border, border : RAYS - border]
     return RayShares(*(float(part.mean()) for part in (mesh == SKY, mesh == GROUND, mesh >= 0)))
+
+
+def hidden_corners(
+    mission: MissionIR, hit: tuple[IntArray, IntArray], views: Sequence[tuple[CameraPose, ScreenBox]]
+) -> Array:
+    """Return the corners of the bodies of a target, shape (K, 3), W, metres.
+
+    Only bodies count whose outline is inside, or just outside, every box. A body that reaches farther adds
+    nothing, for example a church of which the tower is meant.
+
+    hit : mesh and triangle of each of its points
+    views : cameras, and the boxes that mean it
+    """
+    mesh, triangle = hit
+    body = np.zeros(len(mesh), dtype=np.intp)
+    for number in np.unique(mesh):
+        mine = mesh == number
+        body[mine] = mission.meshes[number].body[triangle[mine]]
+    pairs, counts = np.unique(np.column_stack([mesh, body]), axis=0, return_counts=True)
+    parts = [np.zeros((0, 3))]
+    for (number, which), count in zip(pairs.tolist(), counts.tolist(), strict=True):
+        each = mission.meshes[number]
+        corners = each.surface.triangles[each.body[each.surface.source] == which].reshape(-1, 3)
+        if count >= LEAST_SHARE * len(mesh) and all(_within(corners, *view) for view in views):
+            parts.append(corners)
+    return np.concatenate(parts)
+
+
+def _within(corners: Array, camera: CameraPose, box: ScreenBox) -> bool:
+    """Return whether all corners (K, 3) appear inside a box or just outside it."""
+    u, v, depth = camera.view.project(tuple((corners - np.array(camera.eye)).T))
+    if (depth <= 0.0).any():
+        return False
+    across, up = 0.5 * (box.u_max - box.u_min), 0.5 * (box.v_max - box.v_min)
+    off = np.maximum(
+        np.abs(u - 0.5 * (box.u_min + box.u_max)) / across, np.abs(v - 0.5 * (box.v_min + box.v_max)) / up
+    )
+    return bool((off <= MARGIN_HALF_SIDES).all())

@@ -2,10 +2,12 @@
 
 from typing import NamedTuple
 
+from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, required_at
+from shotc.source.file import SourceFile
 
 
 class PlacedKeyframe(NamedTuple):
@@ -73,3 +75,14 @@ class KeyframeIR(NamedTuple):
 
     mission: MissionIR
     shots: tuple[PlacedShot, ...]
+
+
+class Lowered(NamedTuple):
+    """The lowered mission, or the diagnostics that stopped its lowering.
+
+    file : its text, which the diagnostics refer to
+    """
+
+    keyframes: KeyframeIR | None
+    diagnostics: tuple[Diagnostic, ...]
+    file: SourceFile

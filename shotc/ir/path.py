@@ -8,7 +8,7 @@ still is a ``HoldLeg``, without a curve.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, TypeVar
 
 from shotc.geom.bernstein import Piecewise
@@ -23,6 +23,12 @@ Pose = tuple[float, ...]
 
 CHANNELS = ("x", "y", "z", "cam_yaw", "cam_pitch", "body_yaw", "hfov")
 X, Y, Z, CAM_YAW, CAM_PITCH, BODY_YAW, HFOV = range(7)
+LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
+SIGHT = "what would hide the subject"
+CORNERS, SHARP = "the turns at its points", "turns too sharp for its legs"
+"""Causes that are neither an obstacle nor another drone's picture."""
+NEEDS = ".needs"  # suffix of the statistic's name, after the shot's id
+MORE_RATIO = 1.02  # factor on the needed duration, because the new path differs again
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,12 +201,6 @@ Deviation = PathDeviation | ClockDeviation
 _Deviation = TypeVar("_Deviation", PathDeviation, ClockDeviation, Deviation)
 
 
-LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
-SIGHT = "what would hide the subject"
-CORNERS, SHARP = "the turns at its points", "turns too sharp for its legs"
-"""Causes that are neither an obstacle nor another drone's picture."""
-
-
 def from_required_positions(mission: MissionIR, deviations: Iterable[_Deviation]) -> tuple[_Deviation, ...]:
     """Return the deviations from positions that the mission requires.
 
@@ -256,3 +256,22 @@ def filmed(path: PathIR, shot: str) -> Leg:
             if leg.shot == shot:
                 return leg
     raise KeyError(shot)
+
+
+def with_need(path: PathIR, shot: str, seconds: float) -> PathIR:
+    """Return the path with a note of the duration, seconds, that the refinement of a shot needs.
+
+    A refined shot keeps the duration of its convex path if other shots are planned beside it. If it cannot,
+    and the mission leaves its duration free, all paths are planned again with this one.
+    """
+    return replace(path, stats=(*path.stats, (f"{shot}{NEEDS}", seconds)))
+
+
+def needed(path: PathIR) -> dict[str, float]:
+    """Return by id the durations, seconds, with which the unrefined shots of a path could be refined."""
+    mission, needs = path.keyframes.mission, {}
+    for name, value in path.stats:
+        shot = name.removesuffix(NEEDS)
+        if name != shot and isinstance(value, float) and mission.shot(shot).timing.duration is None:
+            needs[shot] = MORE_RATIO * value
+    return needs

@@ -1,12 +1,12 @@
-"""A stable text form of any IR, for --dump-ir and for tests."""
+"""The fields of IR records, and a stable text form of any IR for --dump-ir and for tests."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 from shotc.ir.origin import OriginMap
-from shotc.ir.records import field_names
 
 DIGITS = 9
 
@@ -61,3 +61,11 @@ def _scalar(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_scalar(v) for v in value) + "]"
     return str(value)
+
+
+def field_names(record: Any) -> tuple[str, ...]:
+    """Return the field names of a record or of its type, in order; empty for anything else."""
+    if is_dataclass(record):
+        return tuple(field.name for field in fields(record))
+    kind = record if isinstance(record, type) else type(record)
+    return getattr(kind, "_fields", ()) if issubclass(kind, tuple) else ()

@@ -32,9 +32,9 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.limits import Limits
-from shotc.ir.records import field_names
 from shotc.ir.rules import Rules
 from shotc.ir.show import Display, Fleet
+from shotc.ir.text import field_names
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.planfile.layout import RowList
 

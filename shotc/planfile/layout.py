@@ -17,6 +17,8 @@ LINE_NUMBERS = 10
 
 LONGEST_RECORD_CHARACTERS = 420
 """Most characters of an object of plain values on one line."""
+_ESCAPED = "surrogateescape"
+_END = "\n"
 
 
 class RowList(list[Any]):
@@ -70,3 +72,13 @@ def _one_line(value: Any) -> str | None:
 
 def _is_short(value: Any) -> bool:
     return not isinstance(value, dict | list) or len(value) <= 8
+
+
+def as_lines(data: bytes) -> RowList:
+    """Return the lines of a file's bytes. A carriage return stays at the end of its line."""
+    return RowList(data.decode("utf-8", _ESCAPED).split(_END))
+
+
+def as_bytes(lines: tuple[str, ...]) -> bytes:
+    """Return the bytes of a file from its lines. Raises ValueError if no file has such lines."""
+    return _END.join(lines).encode("utf-8", _ESCAPED)

@@ -16,8 +16,8 @@ from shotc.ir.path import Deviation
 from shotc.ir.source import Autopilot, Chosen, MissionSource
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.planfile.codec import Decoder, FieldFault, hints, show
+from shotc.planfile.layout import as_bytes
 from shotc.planfile.sanity import inconsistencies
-from shotc.planfile.text import as_bytes
 from shotc.planfile.write import FORMAT, VERSION, seal
 from shotc.source.file import WHOLE_FILE, Span
 

@@ -13,7 +13,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.planfile import layout
 from shotc.planfile.codec import encode
-from shotc.planfile.text import as_lines
+from shotc.planfile.layout import as_lines
 
 FORMAT = "shotc-plan"
 VERSION = 1

@@ -25,7 +25,6 @@ from shotc.ir.hidden import HALF_SHARE
 from shotc.ir.keyed import keeps_a_place, near_at
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Near
-from shotc.ir.needs import with_need
 from shotc.ir.obstacle_mesh import body_prisms
 from shotc.ir.occlusion import others_of
 from shotc.ir.path import (
@@ -43,6 +42,7 @@ from shotc.ir.path import (
     PathDeviation,
     TimedPath,
     leg_of,
+    with_need,
 )
 from shotc.ir.preference import MOST_MOVED, PICTURE_SHARE, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import projected, seen
@@ -62,12 +62,11 @@ from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, bes
 from shotc.planning.obstacles import flight_space
 from shotc.planning.path.drawn import DrawnPath, drawn_path
 from shotc.planning.path.filmed_ahead import ahead_in
+from shotc.planning.path.monotone import steady
 from shotc.planning.path.rejoin import rejoined
-from shotc.planning.path.turns import steady
 from shotc.planning.path.with_camera import NoTransit, with_camera
 from shotc.planning.timing.deadlines import flying_times
-from shotc.planning.timing.rough_times import rough_times
-from shotc.planning.timing.timed_leg import lateness, leg_time
+from shotc.planning.timing.timed_leg import lateness, leg_time, rough_times
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 

@@ -15,9 +15,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Apart, Fleet, kept_from_cameras, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.fleets.fly import PERIOD_S
 from shotc.simulation.fleets.near import Across, ClosestPair
-from shotc.simulation.fleets.rehearse import FleetRehearsal, Watch, moments
+from shotc.simulation.fleets.rehearse import PERIOD_S, FleetRehearsal, Watch, moments
 from shotc.simulation.fleets.vehicle import Gusts
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import at_times

@@ -8,17 +8,22 @@ discretisation, which holds at both ends of every cell.
 from __future__ import annotations
 
 import logging
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.solvers.late_pyplot import late_pyplot
 from shotc.solvers.topp_problem import FastestProfile, LinearLimits, no_profile, profile_of
 
 Array = NDArray[np.float64]
+PYPLOT = "matplotlib.pyplot"
 
 
 def fastest(limits: LinearLimits) -> FastestProfile:
@@ -115,3 +120,27 @@ def _constraint_class() -> Any:
             return a, b, c, lhs, rhs, None, bound
 
     return ToppraLimits
+
+
+class _LateModule(ModuleType):
+    """A module that loads at the first access to an attribute."""
+
+    def __getattr__(self, name: str) -> Any:
+        if sys.modules.get(self.__name__) is self:  # during the import nothing is needed yet
+            raise AttributeError(name)
+        return getattr(import_module(self.__name__), name)
+
+
+@contextmanager
+def late_pyplot() -> Iterator[None]:
+    """Give imports inside the block a pyplot that loads at first use; other modules do not see it.
+
+    toppra imports pyplot for plots that we never draw, and pyplot takes longer to load than the rest of it.
+    """
+    absent = [name for name in ("matplotlib", PYPLOT) if name not in sys.modules]
+    sys.modules.update((name, _LateModule(name)) for name in absent)
+    try:
+        yield
+    finally:
+        for name in absent:
+            del sys.modules[name]

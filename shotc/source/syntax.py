@@ -3,16 +3,20 @@
 The parser only reports what it expected. A rule looks at the text around that place and states the fault.
 """
 
+import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from shotc.source.comments import value_in_comment
 from shotc.source.fault import Fault, shorten
 from shotc.source.file import SourceFile, Span
 from shotc.source.limits import MAX_DEPTH
 
 _QUOTE = "put the value in quotes"
 _INDENT = "indent the keys of one mapping, and the items of one list, by the same number of spaces"
+_QUOTED = re.compile(r"""(?<![^\s\[{,])(?:"(?:\\.|[^"\\])*"|'(?:[^']|'')*')""")
+_COMMENT = re.compile(r"(?<![^\s\[{,])#")
+_WORD = re.compile(r"#[^\s,\[\]{}]+")
+_COLOUR = re.compile(r"#(?:[0-9A-Fa-f]{3}){1,2}(?![^\s,\[\]{}])")
 
 
 class Complaint(NamedTuple):
@@ -333,3 +337,20 @@ _RULES: tuple[tuple[str, Callable[[Complaint], Fault]], ...] = (
     ("directive", _directive),
     ("incompatible YAML document", _directive),
 )
+
+
+def value_in_comment(text: str, start: int, end: int) -> tuple[int, int] | None:
+    """Return the offsets of the first value between ``start`` and ``end`` that a `#` made a comment, or None.
+
+    Such a value follows a colon and has no blank after the `#`, or it is a colour such as ``#ff8000``.
+    """
+    for line in text[start:end].splitlines(keepends=True):
+        seen = _QUOTED.sub(lambda quoted: "'" * len(quoted[0]), line)
+        sign = _COMMENT.search(seen)
+        if sign is not None:
+            first = _WORD if seen[: sign.start()].rstrip().endswith(":") else _COLOUR
+            match = first.match(seen, sign.start())
+            if match is not None:
+                return (start + match.start(), start + match.end())
+        start += len(line)
+    return None

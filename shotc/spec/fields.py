@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import StrictBool
 
+from shotc.ir.allow import BLURRED, FAST_PAN, HIDDEN, SOFT
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.smoothing import LONGEST_S, SHORTEST_S, SMOOTHINGS
 from shotc.spec.fieldtypes import Integer, NamedOr, Text, TextOrNumber
@@ -14,7 +15,6 @@ from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
 from shotc.spec.quantities import Percentage, Quantity, QuantitySpan, Range, Tuple
 from shotc.spec.screen import Aspect, BoxOnScreen, CompositionSet, Frame, ScreenPoint
-from shotc.spec.sizes import SIZES
 from shotc.units import SMALLEST
 
 __all__ = [
@@ -74,6 +74,27 @@ __all__ = [
     "Switch",
     "Velocity",
 ]
+
+SIZES: dict[str, float] = {
+    "establishing": 0.1,  # the location, with the target as a part of it
+    "long": 0.4,  # the target in its surroundings
+    "full": 0.9,  # the whole target, with a little room
+    "medium-full": 1.4,  # c = 0.34
+    "medium": 2.2,  # c = 0.58
+    "close-up": 5.0,  # c = 0.82
+    "extreme-close-up": 10.0,  # a tenth of the target: of a person, forehead to chin
+}
+"""The film terms for the size of a target in the picture: its projected height over the frame's height.
+
+The ladder of names is the one of film handbooks (Bowen and Thompson, Grammar of the Shot; Katz, Film
+Directing Shot by Shot), which define sizes by where the frame cuts a standing person: below the feet (full),
+above the knees (medium-full), at the waist (medium), at the shoulders (close-up), inside the face (extreme
+close-up). Drillis and Contini's table (Winter, Biomechanics and Motor Control of Human Movement, fig. 4.1)
+gives these heights as shares of the body's height: knee 0.285, hip 0.530, shoulder 0.818, chin 0.870,
+eye 0.936. With 8 % of the frame above the head, a cut at c gives 0.92 / (1 - c), rounded here. The wide sizes
+and the extreme one are our choice. Above 1 the target is cropped on purpose; a mission writes this only by
+name.
+"""
 
 _LENGTH = Quantity("Length", "length")
 _POSITIVE_LENGTH = Quantity("PositiveLength", "length", SMALLEST["length"])
@@ -156,3 +177,10 @@ PACES = {"calm": 0.5, "normal": 0.75, "brisk": 1.0}
 _SMOOTHING = Quantity("SmoothingTime", "duration", SHORTEST_S, LONGEST_S, noun="smoothing time")
 Smoothing = Annotated[float, NamedOr("Smoothing", SMOOTHINGS, "smoothing", _SMOOTHING)]
 Pace = Annotated[float, NamedOr("Pace", PACES, "pace", Quantity("PaceShare", "ratio", 0.05, 1.0))]
+
+
+GRAMMAR = ("crossing-the-line", "jump-cut", "short-shot", "walks-out-of-frame", FAST_PAN)
+
+_SLUG = NamedOr("AllowedWarning", {slug: slug for slug in (*GRAMMAR, HIDDEN, SOFT, BLURRED)}, "warning")
+
+Allowed = tuple[Annotated[str, _SLUG], ...]

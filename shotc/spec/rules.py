@@ -6,9 +6,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from shotc.spec import presets
-from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
-from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace, Smoothing
+from shotc.spec.fields import Allowed, CompositionSet, Frequency, Name, NonNegativeLength, Pace, Smoothing
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import Model
 from shotc.spec.quantities import Quantity

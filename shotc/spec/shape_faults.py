@@ -8,9 +8,9 @@ from pydantic import ValidationError
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import code_of
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.source.comments import value_in_comment
 from shotc.source.fault import capped
 from shotc.source.file import WHOLE_FILE, SourceFile
+from shotc.source.syntax import value_in_comment
 from shotc.spec.mission import VERSION, is_version
 from shotc.spec.shot import ShotBase
 from shotc.spec.translate import UnplacedFault, findings

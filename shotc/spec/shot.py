@@ -13,9 +13,9 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from shotc.ir.photos import Photos
-from shotc.spec.allow import Allowed
 from shotc.spec.exposure import FocusType, IntervalType
 from shotc.spec.fields import (
+    Allowed,
     BoxOnScreen,
     CompositionSet,
     FieldOfView,

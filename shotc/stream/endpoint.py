@@ -1,11 +1,19 @@
-"""Addresses of vehicles: ``udp:PORT`` listens on a port, ``udpout:HOST:PORT`` sends first."""
+"""Addresses of vehicles: ``udp:PORT`` listens on a port, ``udpout:HOST:PORT`` sends first.
+
+Their sockets do not block.
+"""
 
 from __future__ import annotations
 
+import socket
+from collections.abc import Iterator
 from typing import NamedTuple
 
 EVERYWHERE = "0.0.0.0"
 LARGEST_PORT = 65535
+LARGEST_DATAGRAM_BYTES = 4096
+MOST_DATAGRAMS = 200
+"""Read per call, so that a sender of too much data cannot delay the flight."""
 
 
 class Endpoint(NamedTuple):
@@ -36,3 +44,30 @@ def endpoint(text: str) -> Endpoint:
     if scheme == "udpout" and not host:
         raise ValueError(f"`{text}` does not say whom to call; write `udpout:HOST:{port}`")
     return Endpoint(host or EVERYWHERE, int(port), scheme == "udpout")
+
+
+def opened(endpoint: Endpoint) -> socket.socket:
+    """Return a socket, bound to the address unless the address is remote.
+
+    Raises OSError if it cannot be opened.
+    """
+    endpoint_socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    endpoint_socket.setblocking(False)
+    try:
+        if not endpoint.calls:
+            endpoint_socket.bind((endpoint.host, endpoint.port))
+    except OSError:
+        endpoint_socket.close()
+        raise
+    return endpoint_socket
+
+
+def datagrams(of: socket.socket) -> Iterator[tuple[bytes, tuple[str, int]]]:
+    """Yield the datagrams that have arrived, with their sender, until none is left or the remote port is
+    closed.
+    """
+    for _ in range(MOST_DATAGRAMS):
+        try:
+            yield of.recvfrom(LARGEST_DATAGRAM_BYTES)
+        except OSError:
+            return

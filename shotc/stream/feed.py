@@ -14,9 +14,8 @@ from math import isfinite
 from shotc.geom.geodetic import to_world
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import GeoOrigin
-from shotc.stream.endpoint import Endpoint
+from shotc.stream.endpoint import Endpoint, datagrams, opened
 from shotc.stream.messages import GlobalPosition, GlobeFix
-from shotc.stream.udp import datagrams, opened
 
 STALE_S = 1.0
 """If the last position is older than this, the target's planned position is used."""

@@ -14,7 +14,7 @@ from typing import Any
 from pymavlink.dialects.v20 import common as mavlink
 
 from shotc.stream.autopilots import Mode
-from shotc.stream.endpoint import Endpoint
+from shotc.stream.endpoint import Endpoint, datagrams, opened
 from shotc.stream.messages import (
     CommandResult,
     GimbalManager,
@@ -29,7 +29,6 @@ from shotc.stream.messages import (
     StatusText,
 )
 from shotc.stream.setpoints import Aim, LocalSetpoint
-from shotc.stream.udp import datagrams, opened
 
 STATION, OURSELVES = 255, mavlink.MAV_COMP_ID_MISSIONPLANNER
 """System and component id of ground stations."""

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.cli.summary import WIDTH_CHARACTERS, summary
 from shotc.emit.plan_json import EMITTER
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import Lowered
 from shotc.ir.trajectory import VerifiedIR
 from shotc.source.file import SourceFile
 from tests.cli.conftest import Run

@@ -8,8 +8,8 @@ import numpy as np
 
 from shotc.geom.apart import Distances
 from shotc.geom.bernstein import Array
-from shotc.simulation.fleets.fly import Avoid, FleetConditions, flying
 from shotc.simulation.fleets.near import ClosestPair, NearestSearch
+from shotc.simulation.fleets.rehearse import Avoid, FleetConditions, flying
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable
 
-from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import KeyframeIR, Lowered
 from shotc.ir.source import MissionSource
 from shotc.source.file import SourceFile
 

@@ -177,7 +177,7 @@ def test_a_shot_on_its_own_clock_that_a_condition_leaves_alone_is_told() -> None
 
 
 def test_a_shot_that_cannot_keep_its_time_is_told_with_what_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shotc.planning.path.in_time.lateness", lambda *_: 0.5)
+    monkeypatch.setattr("shotc.planning.path.rejoin.lateness", lambda *_: 0.5)
     before = path_of(LATER, "none", "solve-path-qp")
     outcome = OURS.refine(before, PassContext())
     told = [d for d in outcome.diagnostics if d.code == "R014"]

@@ -9,8 +9,7 @@ from shotc.diag.codes._grouped import GROUPED, OWN_PADS
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._recorded import RECORDED
 from shotc.diag.codes._slips import slip
-from shotc.diag.codes._standing import STANDING
-from shotc.diag.codes._waves import WAVES
+from shotc.diag.codes._waves import STANDING, WAVES
 from shotc.diag.model import Severity
 
 _PASSING = """\

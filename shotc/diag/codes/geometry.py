@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._obstacles import OBSTACLES
-from shotc.diag.codes._placed import PLACED
-from shotc.diag.codes._shaped import SHAPED
+from shotc.diag.codes._placed import PLACED, SHAPED
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 from io import BytesIO
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from shotc.emit.dji.profiles import profile_of
-from shotc.emit.dji.wpml import KML, PASS, WpmlMission
+from shotc.emit.dji.wpml import KML, PASS, WpmlMission, profile_of
 from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.link import NOTHING
 from shotc.emit.waypoints.route import PointAction, Waypoint

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.cameras import ticks
-from shotc.emit.ground_mesh import mesh_of
 from shotc.emit.palette import GROUND, KEEP_IN, KEEP_OUT, STONE, SUBJECT, Rgb
 from shotc.emit.scene_extent import scene_bounds, scene_time
-from shotc.emit.solid_mesh import solid_mesh
+from shotc.emit.triangles import mesh_of, solid_mesh
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.track_array import headings

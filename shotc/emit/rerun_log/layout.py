@@ -10,11 +10,10 @@ import rerun.blueprint as rrb
 from rerun.encodings import AbsoluteTimeRange
 
 from shotc.emit.rerun_log.clock import FILMED, MISSION
+from shotc.emit.rerun_log.meshes import STANDING, TERRAIN
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
-from shotc.emit.rerun_log.obstacle_meshes import STANDING
 from shotc.emit.rerun_log.opening import OpeningView, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
-from shotc.emit.rerun_log.terrain_mesh import TERRAIN
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR

@@ -8,10 +8,9 @@ import numpy as np
 import rerun as rr
 
 from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
-from shotc.emit.rerun_log.obstacle_meshes import log_meshes
-from shotc.emit.rerun_log.terrain_mesh import log_terrain
+from shotc.emit.rerun_log.meshes import log_meshes, log_terrain
 from shotc.emit.scene_extent import scene_bounds, scene_time
-from shotc.emit.solid_mesh import POLYGON_SIDES, solid_mesh
+from shotc.emit.triangles import POLYGON_SIDES, solid_mesh
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid

@@ -12,7 +12,8 @@ from shotc.geom.bernstein import Array
 from shotc.geom.geodetic import FLATTENING, SEMI_MAJOR_M
 from shotc.geom.terrain.posts import TerrainFault
 
-GEOGRAPHIC = frozenset({4326, 4979})
+WGS84_EPSG = 4326
+GEOGRAPHIC = frozenset({WGS84_EPSG, 4979})
 """EPSG codes of WGS84 latitudes and longitudes, without and with heights."""
 UTM_NORTH, UTM_SOUTH = 32600, 32700
 """EPSG codes minus the zone, 1 to 60."""
@@ -78,7 +79,7 @@ def _by_pyproj(code: int) -> System | TerrainFault:
             "pyproj", message, None, "pip install 'shotc[geo]', or bring the file to WGS84 or UTM"
         )
     try:
-        there: Any = pyproj.Transformer.from_crs(code, 4326, always_xy=True)
+        there: Any = pyproj.Transformer.from_crs(code, WGS84_EPSG, always_xy=True)
     except pyproj.exceptions.CRSError:
         return TerrainFault("system", f"EPSG has no system of coordinates with the number {code}")
 

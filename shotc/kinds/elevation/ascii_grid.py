@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
-from shotc.kinds.elevation.srtm import WGS84_EPSG
+from shotc.geom.terrain.systems import WGS84_EPSG
 from shotc.kinds.files import finite
 
 NEEDED = ("ncols", "nrows")

@@ -7,8 +7,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
-from shotc.geom.terrain.systems import GEOGRAPHIC
-from shotc.kinds.elevation.srtm import WGS84_EPSG
+from shotc.geom.terrain.systems import GEOGRAPHIC, WGS84_EPSG
 from shotc.kinds.files import FileFault, read_table
 
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "alt"))

@@ -16,11 +16,10 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.passes import Outcome, PassContext
-from shotc.passes.place_keyframes.faults import report
+from shotc.passes.place_keyframes.faults import report, while_following
 from shotc.passes.place_keyframes.keyed import place_keyed
 from shotc.passes.place_keyframes.sizes import check_size
 from shotc.passes.place_keyframes.subjects import place_subjects
-from shotc.passes.place_keyframes.turns import while_following
 from shotc.planning.framing.placing import Unmet, place_shot
 
 

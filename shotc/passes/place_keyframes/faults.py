@@ -3,6 +3,8 @@
 Keyframes that share a line of the mission, as generated ones do, are reported once, for the worst of them.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from math import degrees, hypot, pi, radians
@@ -10,7 +12,8 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import heading_of
-from shotc.geom.vec import Vec2
+from shotc.geom.vec import TURN_RAD, Vec2, wrapped
+from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Composition, Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
@@ -299,3 +302,32 @@ def _diagnostic(mission: MissionIR, shot: Shot, group: list[Miss]) -> Diagnostic
     help_ = worst.help if isinstance(worst.help, str) else worst.help(mission, shot)
     label = parameter_label(mission, shot, worst.keyframe) or framing_label(mission, worst.keyframe)
     return Diagnostic(worst.code, worst.message, (label,), notes, help_)
+
+
+def while_following(
+    mission: MissionIR, keyframes: tuple[Keyframe, ...], placed: tuple[PlacedKeyframe, ...]
+) -> list[Diagnostic]:
+    """Return errors for stated turns during which the camera would lose the target that it follows."""
+    diagnostics = []
+    for i, after in enumerate(placed):
+        before = placed[i - 1]
+        if after.turn is None or before.reference is None or after.reference is None:
+            continue
+        follows = wrapped(after.yaw - before.yaw)
+        if abs(after.turn - follows) > pi:
+            diagnostics.append(_lost(mission, keyframes[i], after, follows))
+    return diagnostics
+
+
+def _lost(mission: MissionIR, keyframe: Keyframe, placed: PlacedKeyframe, follows: float) -> Diagnostic:
+    assert placed.turn is not None
+    assert keyframe.heading is not None
+    path = (*keyframe.path, "heading")
+    direction = degrees(keyframe.heading % TURN_RAD)
+    return Diagnostic(
+        "K013",
+        f"the camera cannot turn by {degrees(abs(placed.turn)):.0f} deg and follow target `{placed.target}`",
+        (mission.origins.value(path),),
+        (f"following it from the keyframe before takes {degrees(abs(follows)):.0f} deg",),
+        f"write `heading: {direction:.0f} deg`, or turn between keyframes without a target",
+    )

@@ -10,8 +10,7 @@ from shotc.geom.camera import heading_of
 from shotc.ir.begins import first_start
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.passes.place_keyframes.faults import report
-from shotc.passes.place_keyframes.turns import while_following
+from shotc.passes.place_keyframes.faults import report, while_following
 from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import NORTH_RAD, Unmet, explicit_aim, place_shot, setting_of
 from shotc.rounding import at_least

@@ -11,9 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from shotc.ir.needs import needed
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.path import PathIR
+from shotc.ir.path import PathIR, needed
 from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
 from shotc.passes.refine_path.blame import blame, shortest_refined, still_true

@@ -15,6 +15,8 @@ from shotc.ir.path import (
     CAM_PITCH,
     CAM_YAW,
     ClockLeg,
+    Deviation,
+    DronePath,
     HoldLeg,
     Leg,
     MovingLeg,
@@ -27,11 +29,13 @@ from shotc.ir.path import (
 )
 from shotc.passes.refine_path.ask import RefinerAnswer
 from shotc.passes.refine_path.clocked import on_clock
-from shotc.passes.refine_path.drawn import measured
 from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, error_of
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.limits import limits
 from shotc.passes.refine_path.seat import Seat
+from shotc.planning.obstacles import flight_space
+from shotc.planning.path.deviations import off_drawn
+from shotc.planning.path.drawn import drawn_path
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.with_camera import NoTransit
 
@@ -157,3 +161,23 @@ def kept_convex(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault
         tuple(notes),
         "correct what is named, or plan with `--refiner none`",
     )
+
+
+def measured(path: PathIR) -> PathIR:
+    """Return a path with the deviations of its drawn shots measured anew, whatever a refiner says of them."""
+    mission, anew = path.keyframes.mission, dict[str, tuple[Deviation, ...]]()
+    placed = {p.shot.id: p for p in path.keyframes.shots}
+    every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
+    for track in every:
+        for leg in track.legs:
+            if not isinstance(leg, MovingLeg) or leg.shot is None:
+                continue
+            shot = placed[leg.shot]
+            drawn = drawn_path(shot, np.array([mark.s for mark in leg.marks]))
+            if drawn is not None:
+                space = flight_space(mission, mission.drone(track.drone))
+                anew[leg.shot] = off_drawn(space, shot, drawn, leg.curve.channels(X, Y, Z))
+    if not anew:
+        return path
+    others = (d for d in path.deviations if d.shot not in anew)
+    return replace(path, deviations=(*others, *(d for each in anew.values() for d in each)))

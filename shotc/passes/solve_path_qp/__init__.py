@@ -34,8 +34,7 @@ from shotc.passes.solve_path_qp.explain.path import (
 from shotc.passes.solve_path_qp.explain.schedule import out_of_turn, outside_track, too_late, way_met
 from shotc.planning.clock.itinerary import Itinerary
 from shotc.planning.clock.later_films import later_films
-from shotc.planning.clock.moving import moving_targets
-from shotc.planning.clock.others import other_drones
+from shotc.planning.clock.moving import moving_targets, other_drones
 from shotc.planning.clock.remedy import beside_meshes
 from shotc.planning.clock.shot import NoMotion, OtherVehicles
 from shotc.planning.clock.starts import ClockFailure, Meets, OutsideTrack, TooLate

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.records import field_names
+from shotc.ir.text import field_names
 from shotc.units import clip
 
 SAME_SHARE = 1e-9

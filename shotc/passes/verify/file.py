@@ -11,8 +11,7 @@ from shotc import __version__
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.geom.surface.tree import Surface
-from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import KeyframeIR, Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.source import MissionSource

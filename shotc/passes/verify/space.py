@@ -19,9 +19,8 @@ from shotc.ir.phases import UPRIGHT
 from shotc.ir.sampling import beside
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.above_ground import above_ground
-from shotc.passes.verify.beside_meshes import beside_meshes
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
+from shotc.passes.verify.surfaces import above_ground, beside_meshes
 
 DRIFT_M = 1e-6
 """Largest deviation of take-off and landing from the vertical, metres."""

@@ -20,8 +20,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import drone_owner
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.moving import Moving, PlacesAt
-from shotc.planning.clock.others import POINT
+from shotc.planning.clock.moving import POINT, Moving, PlacesAt
 from shotc.planning.clock.run_up import way_time
 
 COMFORT_M = 0.5  # metres beyond the separation, as the film is bounded by control points

@@ -7,7 +7,7 @@ true one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
@@ -21,11 +21,13 @@ from shotc.geom.pieces import Mask
 from shotc.geom.proof import box_gap
 from shotc.geom.solid_arrays.planes import gaps, separate
 from shotc.geom.solid_arrays.points import support
-from shotc.geom.solids import Solid
+from shotc.geom.solids import Solid, point
 from shotc.geom.track_array import places
+from shotc.ir.bodies import flying, standing_at
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
-from shotc.ir.owners import Owner, target_owner
+from shotc.ir.owners import Owner, drone_owner, target_owner
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.ir.transits import from_target
 from shotc.planning.corridor import rows_of
 from shotc.planning.free_space import MARGIN_M, NO_HALF_SPACES, HalfSpaces, six
@@ -39,6 +41,7 @@ COMFORT_M = 0.3  # metres kept beyond a clearance where there is free space
 
 PlacesAt = Callable[[Array], Array]
 """Positions p_W (M, 3), metres, at mission times (M,), seconds."""
+POINT = point((0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,3 +291,20 @@ def _push(part: Solid, relative: Array, need: Array, normal: Array) -> Array:
     n = np.broadcast_to(normal, (len(relative), 3))
     reach = np.einsum("pmd,pd->pm", relative, n).min(axis=1)
     return np.asarray(support(part, n) + need - reach)
+
+
+def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
+    """Return the other drones that film as moving obstacles; parked drones are part of the free space.
+
+    name : of the drone that is planned
+    flights : of the drones planned so far, by name; the others stand on their pads
+    """
+    parked = {drone.name for drone in mission.parked}
+    motions = []
+    for drone in mission.drones:
+        if drone.name == name or drone.name in parked:
+            continue
+        flight = flights.get(drone.name)
+        at = partial(standing_at, np.array(drone.home)) if flight is None else partial(flying, flight.curve)
+        motions.append(Moving(drone_owner(drone), POINT, mission.rules.separation, at, always=True))
+    return tuple(motions)

@@ -22,11 +22,11 @@ from shotc.planning.clock.moving import (
     Moving,
     linearised,
     moving_targets,
+    other_drones,
     shortfalls,
     sides,
     standing,
 )
-from shotc.planning.clock.others import other_drones
 from shotc.planning.clock.visibility import Visibility, keep_free, visibility_of
 from shotc.planning.free_space import (
     NO_HALF_SPACES,

@@ -1,21 +1,23 @@
 """Camera angles that put each target on the nearest place of its composition set (framing Eq. 1 and 2)."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from itertools import pairwise
 from math import atan2, hypot, pi
 from typing import NamedTuple
 
-from shotc.geom.camera import aim_at
+from shotc.geom.camera import aim_at, heading_of
 from shotc.geom.shapes import POINT
-from shotc.geom.vec import Vec2, Vec3, direction, minus
+from shotc.geom.vec import TURN_RAD, Vec2, Vec3, direction, minus, wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.candidates import TOUCH_M, FixedCamera, nearest_candidate, nearest_on_verticals
-from shotc.planning.framing.whole_turns import with_turns
 
 NORTH_RAD = pi / 2
+ROUNDING_RAD = 1e-9
 
 
 class Unmet(NamedTuple):
@@ -141,3 +143,26 @@ def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> fl
 def _direction(angle: float) -> float:
     # The remainder is avoided where possible, because it would change the last bits.
     return angle if -pi < angle <= pi else direction(angle)
+
+
+def with_turns(
+    keyframes: tuple[Keyframe, ...], placed: tuple[PlacedKeyframe, ...]
+) -> tuple[PlacedKeyframe, ...]:
+    """Return the placed keyframes with the turns that their headings state.
+
+    A heading within one whole turn, either way, is a direction, and the turn to it is free. A heading of
+    360 deg or more states turns: the camera turns by exactly the difference from the number written before.
+    Where no heading is written before, that of the keyframe before counts, from 0 to 360 deg. The change of
+    angle due to composition is added.
+    """
+    turned = placed[:1]
+    for i in range(1, len(placed)):
+        heading = keyframes[i].heading
+        if heading is None or abs(heading) < TURN_RAD - ROUNDING_RAD:
+            turned += (placed[i],)
+            continue
+        before = keyframes[i - 1].heading
+        written = (heading_of(placed[i - 1].yaw) if before is None else before) - heading
+        step = placed[i].yaw - placed[i - 1].yaw
+        turned += (placed[i]._replace(turn=written + wrapped(step - written)),)
+    return turned

@@ -22,9 +22,8 @@ from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import FramingSpan
-from shotc.planning.path.lens import lens_line
 from shotc.planning.path.lines import SAME_PLACE_M
-from shotc.planning.path.turns import steady
+from shotc.planning.path.monotone import lens_line, steady
 from shotc.planning.path.unwrapping import Known, PlannedTurn, UnwrappedTurn, turned, turning
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT

@@ -14,11 +14,13 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import (
+    DEGREE,
     SplineFunctionals,
     control_rows,
     count,
     energy_rows,
     greville,
+    hull_rows,
     restrict,
     spline,
     subdivide,
@@ -28,7 +30,6 @@ from shotc.ir.limits import Limits
 from shotc.ir.owners import Owner
 from shotc.planning.corridor import LinearisedCorridor, with_corridor
 from shotc.planning.free_space import FreeSpace, shortfall
-from shotc.planning.path.held import breaks_of, near_legs
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, least_of, minimise
@@ -44,6 +45,8 @@ LATER_SHARE = 0.95  # the same for a solved curve; less would use up the margins
 PIECE_FACTORS = (1, 2, 4)
 STRAIGHT_M = 1e-9  # metres
 GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iteration
+GROWTH_RATIO = 2.0
+PLANNED_SHARE = 0.9  # share of a half-width that is used; refiners need the rest
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -257,3 +260,46 @@ def _pinned(curve: Piecewise, stretch: PolylineTask) -> Piecewise:
 
 def _scaled(rows: SplineFunctionals, factor: float) -> SplineFunctionals:
     return SplineFunctionals(rows.piece, rows.weight * factor)
+
+
+def breaks_of(s: Array, widths: Array, parts: int, finer: int) -> Array:
+    """Return breaks for legs between path parameters ``s``, (M,), metres; they are dense at corners.
+
+    A curve that turns within a half-width needs pieces of about that length, so the pieces grow from there by
+    a factor of two with the distance from a corner.
+
+    widths : half-width of each leg, (M - 1,), metres; inf where it is free
+    parts : equal pieces of a leg; finer : factor on the number of all pieces
+    """
+    inner: list[Array] = []
+    for low, high, width in zip(s[:-1], s[1:], widths, strict=True):
+        reach = (high - low) / (2.0 * parts)
+        steps = width * GROWTH_RATIO ** np.arange(64.0)
+        near = steps[steps < reach]
+        even = np.linspace(low, high, parts + 1)[:-1]
+        inner.append(np.sort(np.concatenate([even, low + near, high - near])))
+    return subdivide(np.append(np.concatenate(inner), s[-1]), finer)
+
+
+def near_legs(breaks: Array, s: Array, corners: Array, widths: Array) -> Cones:
+    """Return the bounds that hold every piece within the half-width of its leg.
+
+    They hold the control points of a piece in balls about points of its leg. The distance from a leg is
+    convex, so the piece is then within the half-width throughout.
+
+    breaks : shape (P + 1,); s, corners : of the polyline, (M,), (M, 3); widths : as in ``breaks_of``
+    """
+    rows = hull_rows(breaks, 0)
+    own = np.arange(len(breaks) - 1).repeat(DEGREE + 1)
+    share = np.tile(np.arange(DEGREE + 1) / DEGREE, len(breaks) - 1)
+    first = np.concatenate([[True], np.arange(1, len(own)) % (DEGREE + 1) > 0])
+    own, share = own[first], share[first]
+    at = breaks[own] + share * np.diff(breaks)[own]
+    leg = np.clip(np.searchsorted(s, 0.5 * (breaks[:-1] + breaks[1:])) - 1, 0, len(widths) - 1)[own]
+    centre = np.column_stack([np.interp(at, s, corners[:, axis]) for axis in range(3)])
+    held = np.isfinite(widths[leg])
+    ends = np.append(leg[1:] != leg[:-1], False)  # a corner has the smaller half-width; it is passed anyway
+    bound = np.where(ends, np.minimum(widths[leg], widths[np.minimum(leg + 1, len(widths) - 1)]), widths[leg])
+    owner = np.zeros(int(held.sum()), dtype=np.intp)
+    rows = type(rows)(rows.piece[held], rows.weight[held])
+    return Cones(rows, (0, 1, 2), centre[held], PLANNED_SHARE * bound[held], None, owner)

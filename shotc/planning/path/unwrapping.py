@@ -20,7 +20,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Mask
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
-from shotc.planning.path.turns import steady
+from shotc.planning.path.monotone import steady
 from shotc.solvers.headings import DEFAULT, FLOWN
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns

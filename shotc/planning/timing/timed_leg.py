@@ -1,16 +1,25 @@
-"""One leg over its own time: from its duration, the times of its keyframes, its pace and its smoothing."""
+"""One leg over its own time: from its duration, the times of its keyframes, its pace and its smoothing.
+
+``rough_times`` approximates it where planning needs times before a leg is timed.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
+from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
 from shotc.planning.timing.deadlines import LegDeadlines, TooFast, has_times
+from shotc.planning.timing.grid import evened, rough_profile
 from shotc.planning.timing.leg import LegMotion, StopPlan, assemble, fastest_moves, plan_of
 from shotc.planning.timing.limits import Ceiling, ceiling_of
-from shotc.planning.timing.move import TimedMove
+from shotc.planning.timing.move import TimedMove, axes_of
+
+LEAST_SPEED_M_S = 1e-3  # m/s along the path, at rest
 
 
 class LegTiming(NamedTuple):
@@ -84,3 +93,21 @@ def lateness(drone: Drone, leg: PathLeg) -> float:
     ceiling, plan = ceiling_of(drone), plan_of(leg)
     fast = fastest_moves(leg, plan, ceiling)
     return LegDeadlines(leg, plan, fast, fast, ceiling).lateness()
+
+
+def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array]:
+    """Return parameters s and the estimated times t at which a leg without holds passes them; shapes (M,).
+
+    Jerk is limited at the ends only, so the flown duration is slightly longer.
+
+    pace : share of the limits used
+    """
+    ceiling = ceiling_of(drone).scaled(pace)
+    places, times = [np.array([leg.curve.start])], [np.zeros(1)]
+    for start, end in plan_of(leg).spans:
+        s, b = rough_profile(leg.curve, start, end, axes_of(leg.curve, (start, end), ceiling))
+        speed = np.sqrt(evened(b))
+        steps = 2 * np.diff(s) / np.maximum(speed[1:] + speed[:-1], LEAST_SPEED_M_S)
+        places.append(s[1:])
+        times.append(times[-1][-1] + np.cumsum(steps))
+    return np.concatenate(places), np.concatenate(times)

@@ -1,9 +1,12 @@
-"""The drones of all fleets one after another, sampled at common times, for files with one part a drone."""
+"""The drones of all fleets by their numbers in files, sampled at common times, with their pyro products."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from heapq import merge
+from operator import itemgetter
+from typing import TypeVar
 
 from shotc.emit.fleet_rows import BATCH_DRONES
 from shotc.geom.bernstein import Array
@@ -11,10 +14,10 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors, FleetTrajectory
 from shotc.ir.light_colors import light_colors
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import PyroCue, drone_names
+from shotc.ir.show import Display, Fleet, PyroCue, drone_names, fleet_name, rows_of
 from shotc.ir.trajectory import VerifiedIR
-from shotc.show.emit.numbered import by_number
-from shotc.show.emit.pyro_cues import carried
+
+Of = TypeVar("Of")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,3 +64,32 @@ def _sampled(mission: MissionIR, flight: FleetTrajectory, times: Array, lit: Arr
 def count(plan: VerifiedIR) -> int:
     """Return the number of drones of all fleets."""
     return sum(len(flight.coef) for flight in plan.trajectory.fleets)
+
+
+def by_number(mission: MissionIR, drones: Mapping[str, Iterable[Of]]) -> Iterator[tuple[int, Of]]:
+    """Yield (number, item) for every drone that flies.
+
+    The number counts from 1 in the whole fleet, after the drones of the fleets before.
+
+    drones : items of each fleet or group, in the order of its drones; they are consumed lazily
+    """
+    whole: dict[str, list[str]] = {}
+    for name in drones:
+        whole.setdefault(fleet_name(name), []).append(name)
+    before = 0
+    for names in whole.values():
+        rows = (zip(mission.fleet(name).numbers, drones[name], strict=True) for name in names)
+        for number, drone in merge(*rows, key=itemgetter(0)):
+            yield before + number, drone
+        first = mission.fleet(names[0])
+        before += len(first.pads) if first.group is None else first.group.total
+
+
+def carried(displays: Sequence[Display], fleet: Fleet) -> list[list[PyroCue]]:
+    """Return the pyro cues of every drone of a fleet, in the order of ignition."""
+    by_drone: list[list[PyroCue]] = [[] for _ in fleet.pads]
+    cues = [cue for display in displays if display.fleet == fleet.name for cue in display.pyro]
+    for cue in sorted(cues, key=lambda cue: cue.ignition):
+        for row in rows_of(fleet, cue):
+            by_drone[row].append(cue)
+    return by_drone

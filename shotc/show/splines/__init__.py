@@ -18,12 +18,13 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.show import Fleet
+from shotc.ir.show import Fleet, drone_names
+from shotc.rounding import at_least
 from shotc.show.geom.windows import Window, windows
 from shotc.show.solvers.move import least_piece, least_pieces
 from shotc.show.solvers.qcqp import Bounded, DerivativeBounds, bounded, overdraft, short
-from shotc.show.splines.faults import too_quick
 
 CONTROL_DECIMALS = 6
 """Decimals of a metre in control points, as in ``assign-goals``."""
@@ -104,3 +105,35 @@ class _Fitter:
             (f"{name} exact", float(sum(done.exact for done in self.done))),
             (f"{name} shift", float(shift.max())),
         ]
+
+
+def too_quick(
+    mission: MissionIR,
+    fleet: Fleet,
+    at: tuple[FleetTrajectory, float],
+    who: tuple[int, float],
+    period: float,
+) -> Diagnostic:
+    """Return D084: an animation ends too far from its start for its duration.
+
+    at : the flight, and when the animation starts, s
+    who : a drone's row and its distance from first to last frame, m
+    period : a period with which every drone arrives, s
+    """
+    path = picture_at(mission, *at)
+    enough = at_least(period)
+    return Diagnostic(
+        "D084",
+        f"the animation is too quick for its drones: a period of {enough} s is enough",
+        (mission.origins.value((*path, "period")),),
+        (f"`{drone_names(fleet)[who[0]]}` goes {who[1]:.1f} m from the first frame to the last",),
+        f"give it `period: {enough}`, more frames, or a smaller `height`",
+    )
+
+
+def picture_at(mission: MissionIR, flight: FleetTrajectory, time: float) -> KeyPath:
+    """Return the path of the picture that is shown at a time or next, or else of the fleet."""
+    for frame in flight.shown:
+        if frame.end >= time - 1e-9:
+            return mission.display(frame.display).pictures[frame.picture].path
+    return mission.fleet(flight.fleet).path

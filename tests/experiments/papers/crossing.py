@@ -19,7 +19,7 @@ from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions
+from shotc.simulation.fleets.rehearse import PERIOD_S, FleetConditions
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED

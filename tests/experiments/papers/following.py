@@ -15,8 +15,8 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import FleetConditions
 from shotc.simulation.fleets.follow import Gains
+from shotc.simulation.fleets.rehearse import FleetConditions
 from shotc.simulation.fleets.vehicle import Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED, Limited, control_points

@@ -15,8 +15,8 @@ from shotc.diag.registry import registry
 from shotc.emit.plan_json import EMITTER
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import OriginMap
-from shotc.ir.records import field_names
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Sphere, Torus
+from shotc.ir.text import field_names
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
 from shotc.passes.verify.file import verify_file
 from shotc.planfile.codec import alternatives

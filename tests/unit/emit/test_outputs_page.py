@@ -20,7 +20,7 @@ from shotc.ir.measures import OUT_OF_PICTURE
 from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
 from shotc.ir.path import ClockDeviation, PathDeviation
 from shotc.ir.phases import Reference
-from shotc.ir.records import field_names
+from shotc.ir.text import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.report import ENDING, RULES, SOFT, STARTING
 from shotc.planfile.codec import hints

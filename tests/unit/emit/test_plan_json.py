@@ -18,7 +18,7 @@ from shotc.ir.mission import Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.passes import PassContext
 from shotc.ir.path import ClockDeviation, PathDeviation
-from shotc.ir.records import field_names
+from shotc.ir.text import field_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.lowering import lower_kept
 from shotc.passes.verify import Verify

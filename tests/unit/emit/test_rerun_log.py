@@ -17,7 +17,7 @@ from shotc.emit.rerun_log.motion import camera_quaternions
 from shotc.emit.rerun_log.opening import filmed_span, first_stand
 from shotc.emit.rerun_log.series import clearance_plot, motion_plots, sample_times
 from shotc.emit.rerun_log.text import certificate_text, phase_texts, quantity
-from shotc.emit.solid_mesh import solid_mesh
+from shotc.emit.triangles import solid_mesh
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.geom.solids import Cylinder, Prism, box, signed_area

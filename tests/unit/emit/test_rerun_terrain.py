@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import rerun as rr
 
-from shotc.emit.ground_mesh import mesh_of
 from shotc.emit.hillshade import before
 from shotc.emit.rerun_log.layout import camera_view
 from shotc.emit.rerun_log.motion import camera_entity
 from shotc.emit.rerun_log.opening import OVER_GROUND_M, first_stand
 from shotc.emit.rerun_log.world import log_scene
+from shotc.emit.triangles import mesh_of
 from shotc.geom.surface.ground import Ground, ground_of, height_at
 from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import VerifiedIR

@@ -13,8 +13,7 @@ from shotc.comparison.score import flown_shots, score, total
 from shotc.diag.model import Diagnostic
 from shotc.emit.rerun_log.side_by_side import place_of, within
 from shotc.emit.screen import error_top
-from shotc.emit.storyboard.error_plot import runs, stretches
-from shotc.emit.storyboard.side_by_side import draw_comparison, worst_frame
+from shotc.emit.storyboard.side_by_side import draw_comparison, runs, stretches, worst_frame
 from shotc.ir.comparison import ComparedShot, Comparison, Condition, MotionMeasures, Trace
 from tests.support.film_plans import orbit_plan
 

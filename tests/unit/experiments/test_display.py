@@ -11,7 +11,7 @@ from shotc.geom.separation import closest
 from shotc.ir.limits import Limits
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.qcqp import DerivativeBounds, bounded, deviation
-from shotc.simulation.fleets.fly import FleetConditions
+from shotc.simulation.fleets.rehearse import FleetConditions
 from shotc.simulation.fleets.vehicle import FleetVehicle
 from tests.experiments.papers import bodies, coverage, crossing, following, limited
 from tests.support.fleet_flights import fly

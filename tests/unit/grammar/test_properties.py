@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.diag.registry import registry
-from shotc.spec.allow import GRAMMAR
+from shotc.spec.fields import GRAMMAR
 from tests.support.front_passes import resolved
 from tests.support.grammar_missions import mission
 

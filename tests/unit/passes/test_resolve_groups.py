@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.ir.show import drone_names, spans, whole_fleets
-from shotc.spec.drone_numbers import NumbersType
+from shotc.spec.fleets import NumbersType
 from tests.support.show_texts import FLEET, SPHERE, faults, marked, only, resolve, show
 
 GROUPED = FLEET.replace("separation: 2", "separation: 2, groups: {fire: 1-8, ring: [9-20, 60]}")

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.planning.path.turns import steady
+from shotc.planning.path.monotone import steady
 from shotc.planning.timing import move as move_module
 from shotc.planning.timing.flown import straying, usages
 from shotc.planning.timing.grid import sample

@@ -12,9 +12,9 @@ from shotc.ir.mission import Composition
 from shotc.spec import fields
 from shotc.spec.compositions import COMPOSITIONS, FRAMES, NAMED_POINTS
 from shotc.spec.drones import CameraSpec
+from shotc.spec.fields import SIZES
 from shotc.spec.places import Geodetic
 from shotc.spec.shot import KeyframeSpec, RequireSpec, TimingSpec
-from shotc.spec.sizes import SIZES
 from shotc.spec.translate import findings
 
 

@@ -10,7 +10,6 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.counted import check_counted
 from shotc.passes.resolve.checks.covered import covered
-from shotc.passes.resolve.checks.covered_by_terrain import check_covered
 from shotc.passes.resolve.checks.framing import check_framing
 from shotc.passes.resolve.checks.framings import check_course
 from shotc.passes.resolve.checks.grammar import allowed, check_grammar
@@ -23,7 +22,7 @@ from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
 from shotc.passes.resolve.checks.safety import check_safety
 from shotc.passes.resolve.checks.shake import check_shake
-from shotc.passes.resolve.checks.terrain_level import check_level
+from shotc.passes.resolve.checks.terrain import check_covered, check_level
 from shotc.passes.resolve.checks.timing import check_timing
 from shotc.passes.resolve.checks.underground import check_underground
 from shotc.passes.resolve.lower import PartialMission

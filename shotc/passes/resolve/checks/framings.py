@@ -21,18 +21,19 @@ from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, Near, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.framing import beyond_gimbal
-from shotc.passes.resolve.checks.framing_detours import for_hidden, why_not_direct
 from shotc.passes.resolve.checks.framing_remedies import (
     as_at,
     for_azimuth,
     for_compromise,
     for_elevation,
     for_free_elevation,
+    for_hidden,
     for_lens,
     for_place,
     for_size,
     for_size_and_elevation,
     for_sizes,
+    why_not_direct,
 )
 from shotc.rounding import up
 

@@ -19,13 +19,12 @@ from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.music import Heard, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
-from shotc.passes.resolve.lower.rehearsal import rehearsal, toward
 from shotc.passes.resolve.lower.shots import Shots, ShotSurroundings, ShowMaterial, expand_shots
 from shotc.passes.resolve.lower.slips import check_slips
 from shotc.passes.resolve.lower.targets import Targets, targets
 from shotc.passes.resolve.lower.terrain import read_terrain
 from shotc.passes.resolve.lower.tracks import read_tracks
-from shotc.passes.resolve.lower.world import PadSite, Put, drones, resolve_drone, zones
+from shotc.passes.resolve.lower.world import PadSite, Put, drones, rehearsal, resolve_drone, toward, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE_HZ, SHOW_RATE_HZ, TRANSIT_FILMED_M, TRANSIT_OTHER_M

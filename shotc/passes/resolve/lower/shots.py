@@ -1,13 +1,15 @@
 """Shots: their kinds expanded to keyframes, with timing, pace and promises."""
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from math import isfinite
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.diag.plugin_faults import plugin_failed
 from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, GeoOrigin, Keyframe, Shot
+from shotc.ir.mission import Deferred, GeoOrigin, Ideal, Keyframe, Shot, Subject
 from shotc.ir.music import Music
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.promise import Promise
@@ -15,7 +17,6 @@ from shotc.ir.rules import Rules
 from shotc.ir.target import Target
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
-from shotc.passes.resolve.lower.foreign import expanded
 from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import NO_DRONE, ShotBase
@@ -195,3 +196,44 @@ def _promise(written: "RequireSpec | None") -> Promise:
         return Promise()
     reveal = None if written.reveal is None else (written.reveal.from_, written.reveal.to)
     return Promise(written.in_frame, written.screen_error, written.size, written.visible, reveal)
+
+
+def expanded(kind: Kind, shot: ShotBase, scene: Scene) -> Expansion:
+    """Return the expansion of a shot by a kind of another package, or P008 on the line of the kind."""
+    try:
+        expansion: Any = kind.expand(shot, scene)
+        wrong = _wrong(expansion)
+    except Exception as fault:  # noqa: BLE001  a plugin may raise anything
+        return _refused(kind, scene, fault)
+    return _refused(kind, scene, wrong) if wrong else expansion
+
+
+def _refused(kind: Kind, scene: Scene, fault: Exception | str) -> Expansion:
+    label = scene.origins.value((*scene.path, "kind"))
+    return Expansion(diagnostics=(plugin_failed(f"kind `{kind.name}`", kind.package, fault, label),))
+
+
+def _wrong(result: Any) -> str:
+    """Return what is wrong with the form of an expansion; an empty text if nothing is."""
+    if not isinstance(result, Expansion):
+        return f"returned a {type(result).__name__}, not an Expansion"
+    parts: Any = ((result.keyframes, Keyframe), (result.subjects, Subject), (result.diagnostics, Diagnostic))
+    for items, record in parts:
+        if not isinstance(items, tuple) or not all(isinstance(item, record) for item in items):
+            return f"returned something else than {record.__name__}s in a tuple"
+    ideal: Any = result.ideal
+    if not isinstance(ideal, Ideal | None):
+        return f"returned a {type(ideal).__name__} as its ideal"
+    if not all(isfinite(number) for number in _numbers((result.keyframes, result.ideal, result.duration))):
+        return "returned a number that is not finite"
+    if not (result.keyframes or result.ideal or result.display or result.diagnostics or result.deferred):
+        return "returned no keyframe, and does not say why"
+    return ""
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    if isinstance(value, float):
+        yield value
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _numbers(item)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import cos, degrees, isclose, sin, tan
+from math import cos, degrees, isclose, pi, sin, tan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.camera import yaw_of
 from shotc.geom.focal import FULL_FRAME_M
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.drone import Drone, Gimbal, LensRange, Optics, Safety
@@ -17,8 +18,8 @@ from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
+from shotc.ir.rehearsal import Rehearsal, RehearsalPromise, Wind
 from shotc.kinds.base import Place, counts_from_ground, stands
-from shotc.passes.resolve.lower.rehearsal import toward
 from shotc.rounding import at_least
 from shotc.spec.drones import CameraSpec, DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
@@ -26,13 +27,14 @@ from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import CIRCLE_SHARE, PRESETS, WIDTH_PX, Preset
-from shotc.spec.rehearse import WindSpec
+from shotc.spec.rehearse import RehearseSpec, WindSpec
 from shotc.spec.world import ZoneSpec
 
 if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.ir.show import Fleet
     from shotc.ir.terrain import Terrain
     from shotc.spec.fleets import FleetSpec
+
 
 Put = Callable[[Spot | Geodetic], Vec3]
 LEAST_AREA_M2 = 1e-4  # m^2
@@ -314,3 +316,32 @@ def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -
         f"{at_least(2.0 * wind, 1)} m/s",
     )
     return [diagnostic]
+
+
+def toward(wind: WindSpec) -> float | None:
+    """Return the yaw towards which the wind blows, rad, opposite to where it comes from."""
+    return None if wind.from_ is None else yaw_of(wind.from_ + pi)
+
+
+def rehearsal(written: RehearseSpec | None) -> Rehearsal | None:
+    """Return the rehearsal that a mission asks for, or None."""
+    if written is None:
+        return None
+    requirements = written.require
+    return Rehearsal(
+        promise=RehearsalPromise(
+            requirements.in_frame,
+            requirements.in_sight,
+            requirements.mean_error,
+            requirements.clearance,
+            requirements.stray,
+            requirements.of,
+        ),
+        path=("rehearse",),
+        runs=written.runs,
+        loop=written.loop,
+        wind=None if written.wind is None else Wind(written.wind.speed, toward(written.wind)),
+        gusts=written.gusts,
+        gps=written.gps,
+        wander=written.wander,
+    )

@@ -24,9 +24,8 @@ from shotc.ir.sampling import beside
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap, less
-from shotc.passes.verify.fleets.above_ground import above_ground
-from shotc.passes.verify.fleets.beside_meshes import beside_meshes
 from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone, worse
+from shotc.passes.verify.fleets.surfaces import Upright, above_ground, beside_meshes
 from shotc.passes.verify.space import DRIFT_M
 
 SEED_PIECES = 256
@@ -36,7 +35,6 @@ BATCH_PIECES = 50_000
 """Most pieces that are checked against a keep-in zone at once; its footprint may have a thousand corners."""
 
 Gap = Callable[[float], float]
-Upright = list[tuple[FleetPieces, Array]]
 
 
 def space(flight: FleetFlight) -> Iterator[Claim]:

@@ -8,9 +8,8 @@ from typing import ClassVar
 from shotc.emit.base import Artifact, Emission
 from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR
-from shotc.show.emit.skyc.archive import archive, left_out, no_origin, too_large
+from shotc.show.emit.skyc.archive import archive, left_out, no_origin, song_of, too_large
 from shotc.show.emit.skyc.show import MOST_DRONES, show_of
-from shotc.show.emit.skyc.song import song_of
 
 
 @dataclass(frozen=True, slots=True)

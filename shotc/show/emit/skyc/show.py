@@ -20,8 +20,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import Display, Fleet, PyroCue, drone_names
 from shotc.ir.trajectory import VerifiedIR
-from shotc.show.emit.numbered import by_number
-from shotc.show.emit.pyro_cues import carried
+from shotc.show.emit.sampled import by_number, carried
 from shotc.show.emit.skyc.curve import COORDINATE_DECIMALS, Curves, curves
 from shotc.show.emit.skyc.light_programs import programs
 

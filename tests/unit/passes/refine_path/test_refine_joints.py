@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.passes.refine_path.joints import largest_jump
+from shotc.passes.refine_path.form import largest_jump
 
 STEP = 0.01
 """Metres of path of a piece: short enough for rounding to show in second derivatives."""

@@ -11,8 +11,7 @@ from shotc import __version__
 from shotc.diag.model import Diagnostic
 from shotc.geom.surface.ground import ground_of
 from shotc.geom.surface.tree import surface_of
-from shotc.ir.keyframes import KeyframeIR
-from shotc.ir.lowered import Lowered
+from shotc.ir.keyframes import KeyframeIR, Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.origin import OriginMap

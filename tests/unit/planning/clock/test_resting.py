@@ -14,8 +14,8 @@ from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Cylinder
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
+from shotc.planning.clock.ends import FARTHEST_M, shift_beside_traffic
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.resting import FARTHEST_M, shift_beside_traffic
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.free_space import FreeSpace, Wall
 from tests.support.compiled import compiled_text

@@ -26,10 +26,10 @@ from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.verify.advice import Rule, advice
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import When, choose
+from shotc.planning.clock.detours import with_sweeps
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.shot import OtherVehicles, TimedShot, timed_shot
 from shotc.planning.clock.starts import CLOSE_S, SPARE_S, ClockFailure, Reached, put_off
-from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import FreeSpaces, free_spaces_of

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from shotc.planning.path.turns import steady
+from shotc.planning.path.monotone import steady
 from tests.support.path_scenes import framed, free, legs, mission, planned, shot
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.fleet_spline import places
-from shotc.simulation.fleets.fly import FleetConditions
 from shotc.simulation.fleets.follow import FleetReference, Gains, preferred
+from shotc.simulation.fleets.rehearse import FleetConditions
 from shotc.simulation.fleets.vehicle import Gusts
 from tests.support.fleet_flights import fly
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
-from math import acos, degrees, dist, hypot, radians, sqrt
+from math import acos, atan2, ceil, cos, degrees, dist, hypot, radians, sin, sqrt
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.vec import wrapped
 from shotc.ir.flown_order import flown_order
+from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.checks.grammar.aside import to_the_side
 from shotc.passes.resolve.checks.grammar.end_frames import ShotFrame, sight
 from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.line import check_line
@@ -24,6 +25,7 @@ ALIKE_SIZE_RATIO = 1.5  # ratio of sizes on screen, below which they are about t
 SAME_PLACE_SHARE = 0.02  # share of the distance that a camera may move between shots that continue
 SAME_LENS_RATIO = 1.05
 SAME_TIME_S = 1.0  # seconds between two shots of a moving subject that continue
+_KEYS = ("azimuth", "start_azimuth")
 
 
 def check_cuts(mission: MissionIR, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
@@ -113,3 +115,44 @@ def carries_on(left: ShotFrame, right: ShotFrame) -> bool:
     if not left.moving:
         return True
     return left.t is not None and right.t is not None and abs(right.t - left.t) < SAME_TIME_S
+
+
+def to_the_side(mission: MissionIR, after: Shot, left: ShotFrame, right: ShotFrame, apart: float) -> str:
+    """Return a remedy with a start at least ``apart`` rad from the view before the cut.
+
+    The camera keeps its height and distance. Empty where these heights allow no such place, because from high
+    above all sides look alike, and where the shot's kind has no key for an azimuth.
+    """
+    azimuth_deg = _azimuth(left.offset, right.offset, apart)
+    if azimuth_deg is None:
+        return ""
+    azimuth = f"{azimuth_deg % 360} deg"
+    if after.keyframes and after.keyframes[0].placed:
+        return f"begin `{after.id}` at {_place(right, azimuth_deg)}"
+    key = next((key for key in _KEYS if (*after.path, key) in mission.origins.values), None)
+    if after.ideal is not None and after.kind == "framing":
+        return f"begin `{after.id}` at an azimuth of {azimuth} from `{right.names[0]}`"
+    return "" if key is None or after.ideal is not None else f"write `{key}: {azimuth}`"
+
+
+def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
+    """Return the azimuth of the nearer of the two sides, in whole degrees slightly beyond ``apart``.
+
+    Two views at elevations e and f, with azimuths d apart, are acos(cos e cos f cos d + sin e sin f) apart.
+    """
+    across = hypot(*left[:2]) * hypot(*right[:2])
+    if across < 1e-6:
+        return None
+    turn = (cos(apart) * hypot(*left) * hypot(*right) - left[2] * right[2]) / across
+    if not -1.0 <= turn <= 1.0:
+        return None
+    middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
+    turn_deg = degrees(acos(turn)) + 0.5  # so that a place rounded to centimetres is still beyond it
+    azimuths = (ceil(middle + turn_deg), -ceil(turn_deg - middle))
+    return min(azimuths, key=lambda candidate: abs(wrapped(radians(candidate - now))))
+
+
+def _place(right: ShotFrame, azimuth: int) -> str:
+    (x, y, _), (cx, cy, _) = right.offset, right.centres[0]
+    far, angle = hypot(x, y), radians(azimuth)
+    return f"[{cx + far * sin(angle):.2f}, {cy + far * cos(angle):.2f}, {right.eye[2]:.2f}]"

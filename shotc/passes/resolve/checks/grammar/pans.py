@@ -13,8 +13,7 @@ from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.end_frames import sight, start_of
 from shotc.passes.resolve.checks.grammar.labels import lasting
 from shotc.passes.resolve.checks.timing import ROUNDING_S
-from shotc.planning.framing.placing import explicit_aim
-from shotc.planning.framing.whole_turns import ROUNDING
+from shotc.planning.framing.placing import ROUNDING_RAD, explicit_aim
 from shotc.rounding import at_least
 
 MOST_PIECES = 120  # most pieces of such a shot
@@ -135,7 +134,7 @@ def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> flo
     """Return the frame widths by which the camera turns from a keyframe to the next one."""
     a, b = looks[i], looks[i + 1]
     stated, before = keyframes[i + 1].heading, keyframes[i].heading
-    if stated is not None and before is not None and abs(stated) >= TURN_RAD - ROUNDING:
+    if stated is not None and before is not None and abs(stated) >= TURN_RAD - ROUNDING_RAD:
         yaw = stated - before
     else:
         yaw = wrapped(b[0] - a[0])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import whole_fleets
-from shotc.passes.resolve.checks.covered_by_terrain import beyond
+from shotc.passes.resolve.checks.terrain import beyond
 from shotc.show.geom.shape import balls
 from shotc.show.labels import key_of, pads_path
 

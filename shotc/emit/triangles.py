@@ -1,7 +1,8 @@
-"""Solids as shaded triangles, for pictures and files of the world."""
+"""Triangles of the ground and of solids, shaded for pictures and for files of the world."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,36 @@ from shotc.geom.solids import Cylinder, Solid, triangles
 POLYGON_SIDES = 48
 LIGHT_RAD = np.radians(215.0)
 """Direction to the light, an angle in W, rad."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroundMesh:
+    """Corners (V, 3) in W, metres; their unit normals (V, 3); triangles as indices of corners, (T, 3)."""
+
+    corners: NDArray[np.float32]
+    normals: Array
+    faces: NDArray[np.uint32]
+
+
+def mesh_of(ground: Array) -> GroundMesh:
+    """Return the triangles of the ground, (T, 3, 3), as one mesh, all counter-clockwise seen from above.
+
+    Triangles share their corners, for smooth shading. The normal at a corner is the area-weighted mean of
+    their normals.
+    """
+    flat = ground.reshape(-1, 3).astype(np.float32)
+    # The ground has one height at each (x, y), so corners are equal where x and y are.
+    place = np.ascontiguousarray(flat[:, :2] + np.float32(0.0)).view(np.uint64).ravel()
+    _, first, number = np.unique(place, return_index=True, return_inverse=True)
+    faces = number.reshape(-1, 3)
+    across = np.cross(ground[:, 1] - ground[:, 0], ground[:, 2] - ground[:, 0])
+    down = across[:, 2] < 0.0
+    faces[down], across[down] = faces[down][:, ::-1], -across[down]
+    normals = np.stack(
+        [np.bincount(faces.ravel(), np.repeat(across[:, i], 3), len(first)) for i in range(3)], axis=1
+    )
+    size = np.linalg.norm(normals, axis=1, keepdims=True)
+    return GroundMesh(flat[first], normals / np.where(size > 0.0, size, 1.0), faces.astype(np.uint32))
 
 
 class ShadedMesh(NamedTuple):
