@@ -94,10 +94,8 @@ def box_contour(offset: Array, box: BoxShape) -> Array:
 def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
     """Return the corners (+-1, +-1, +-1) of a cube along its contour.
 
-    beyond : the sides that face the eye
+    beyond : the sides that face the eye, at least one
     """
-    if beyond == (0, 0, 0):
-        return [(0, 0, 0)]
     corners = list(product((-1, 1), repeat=3))
 
     def faces(axis: int, side: int) -> bool:
@@ -122,12 +120,11 @@ def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
 
 
 def _contours() -> Array:
-    rows = []
-    for beyond in product((-1, 0, 1), repeat=3):
-        loop = _contour_of((beyond[0], beyond[1], beyond[2]))
-        rows.append([*loop, *[loop[-1]] * (6 - len(loop))])
-    table = np.array(rows, dtype=np.float64)
-    table[13] = np.nan  # the eye is inside
+    table = np.full((27, 6, 3), np.nan)  # without a contour where the eye is inside
+    for row, beyond in zip(table, product((-1, 0, 1), repeat=3), strict=True):
+        if any(beyond):
+            loop = _contour_of((beyond[0], beyond[1], beyond[2]))
+            row[:] = [*loop, *[loop[-1]] * (6 - len(loop))]
     return table
 
 
@@ -256,7 +253,7 @@ def _clip_near(loop: Array) -> Array:
             corners.append(_crossing(before, p))
         if inside[i]:
             corners.append(p)
-    return np.array(corners) if len(corners) > 2 else np.empty((0, 3))
+    return np.array(corners) if corners else np.empty((0, 3))
 
 
 def _clip_strip(strip: Array) -> list[Array]:

@@ -81,9 +81,7 @@ def signed_distance(solid: Solid, p: Vec3) -> float:
         across = min(dist((x, y), closest_on_segment(a, b, (x, y))) for a, b in edges(solid.points))
         across = -across if inside_polygon(solid.points, (x, y)) else across
     upright = max(solid.bottom - z, z - solid.top)
-    if across <= 0 and upright <= 0:
-        return max(across, upright)
-    return hypot(max(across, 0.0), max(upright, 0.0))
+    return min(max(across, upright), 0.0) + hypot(max(across, 0.0), max(upright, 0.0))
 
 
 def distance(solid: Solid, p: Vec3) -> float:

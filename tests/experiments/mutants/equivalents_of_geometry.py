@@ -331,4 +331,58 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
         "the same pairs are looked at again, with the same bounds",
         1,
     ),
+    Equivalent(
+        "shotc/geom/separation.py",
+        "for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:",
+        "//  ->  *",
+        "slabs are sampled for a first upper bound alone; branch and bound ends within the same gap",
+    ),
+    Equivalent(
+        "shotc/geom/separation.py",
+        "self._sample(low, high)",
+        "self._sample(low, high)  ->  pass",
+        "slabs are sampled for a first upper bound alone; branch and bound ends within the same gap",
+    ),
+    Equivalent(
+        "shotc/geom/surface/occlusion.py",
+        "if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):",
+        "len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T)  ->  not (len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T))",
+        "a search for several frames is followed by the test of each: the triangles are those of a search each",
+    ),
+    Equivalent(
+        "shotc/geom/surface/occlusion.py",
+        "if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):",
+        "<=  ->  <",
+        "a search for several frames is followed by the test of each: the triangles are those of a search each",
+    ),
+    Equivalent(
+        "shotc/geom/surface/occlusion.py",
+        "if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):",
+        "<=  ->  >=",
+        "a search for several frames is followed by the test of each: the triangles are those of a search each",
+    ),
+    Equivalent(
+        "shotc/geom/surface/occlusion.py",
+        "if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):",
+        "or  ->  and",
+        "a search for several frames is followed by the test of each: the triangles are those of a search each",
+    ),
+    Equivalent(
+        "shotc/geom/surface/occlusion.py",
+        "if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):",
+        "not  ->  nothing",
+        "a search for several frames is followed by the test of each: the triangles are those of a search each",
+    ),
+    Equivalent(
+        "shotc/geom/surface/cloud.py",
+        "key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]",
+        "42  ->  43",
+        "one bit more between the coordinates of a cell; none has that many cells",
+    ),
+    Equivalent(
+        "shotc/geom/surface/cloud.py",
+        "key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]",
+        "21  ->  22",
+        "one bit more between the coordinates of a cell; none has that many cells",
+    ),
 )

@@ -61,6 +61,7 @@ def test_no_pose_without_roll_shows_what_is_too_steep_aside_and_none_the_eye_its
 
 def test_straight_down_the_heading_is_the_one_that_is_given() -> None:
     assert aim_at((0.0, 0.0, -10.0), (0.0, 0.0), HFOV, ASPECT, 1.2) == pytest.approx((1.2, -pi / 2))
+    assert aim_at((0.0, 0.0, -10.0), (0.0, 0.0), HFOV, ASPECT) == pytest.approx((0.0, -pi / 2))
     assert aim_at((0.0, 0.01, -10.0), (0.0, 0.0), HFOV, ASPECT, 1.2) == pytest.approx(
         (pi / 2, -pi / 2), abs=2e-3
     )

@@ -42,3 +42,9 @@ def test_a_cell_is_represented_by_the_middle_of_its_points() -> None:
     found = splats(points, 2.0, 10)
     assert found.middle.tolist() == [[1.25, 2.25, 3.5], [9.0, 9.0, 9.0]]
     assert (found.first.tolist(), found.size) == ([0, 2], 2.0)
+
+
+def test_cells_differ_in_each_coordinate() -> None:
+    corners = np.stack(np.meshgrid([0.0, 5.0], [0.0, 7.0], [0.0, 9.0]), axis=-1).reshape(-1, 3)
+    found = splats(np.concatenate([corners, corners + 0.5]), 2.0, 10)
+    assert sorted(found.middle.tolist()) == sorted((corners + 0.25).tolist())

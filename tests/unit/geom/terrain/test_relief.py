@@ -170,6 +170,13 @@ def test_what_is_no_grid_of_heights_is_told(heights: np.ndarray, x: np.ndarray, 
     assert found.kind == kind
 
 
+@pytest.mark.parametrize("y", [[0.0, np.nan, 2.0], [np.inf, np.inf, np.inf], [0.0, 1.0, np.inf]])
+def test_rows_without_a_place_are_told(y: list[float]) -> None:
+    found = posts_of(np.zeros((3, 3)), np.arange(3.0), np.array(y), None)
+    assert isinstance(found, TerrainFault)
+    assert found.kind == "number"
+
+
 @pytest.mark.parametrize(("low", "high"), [(7.2, 9.7), (8.0, 9.0), (8.4, 8.6)])
 def test_as_many_posts_are_taken_beyond_a_box_on_one_side_as_on_the_other(low: float, high: float) -> None:
     values = np.arange(20.0)

@@ -63,6 +63,15 @@ def test_a_broken_claim_is_told_by_what_it_is_about(
     assert state_of(claim, code) == f"{told} is 1.000 m, at least 2.000 m is needed"
 
 
+@pytest.mark.parametrize(
+    ("upper", "told"), [(True, "at most 2.000 m is allowed"), (False, "at least 2.000 m is needed")]
+)
+def test_a_limit_is_told_with_its_side(upper: bool, told: str) -> None:
+    speed = next(c for c in orbit_plan().certificate if c.constraint == "speed")
+    claim = replace(speed, worst=1.0, limit=2.0, unit="m", upper=upper)
+    assert state_of(claim, "V001").endswith(told)
+
+
 OWN = ("drones", "cam1")
 SETTINGS = [
     ((*OWN, "limits", "speed"), "speed", True, "raise `limits.speed` to 9.433 m/s"),
