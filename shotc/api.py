@@ -232,14 +232,14 @@ def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic,
     return None, source.diagnostics
 
 
-def crew(jobs: int | None = None) -> AbstractContextManager[emission.EmitterPool]:
+def emitter_pool(jobs: int | None = None) -> AbstractContextManager[emission.EmitterPool]:
     """Return a context with processes that emit in parallel, this one included; enter it before threads
     start.
 
     jobs : number of processes; None means that of the cores, up to a few
     ``prepare`` names the emitters early; later ``emit_plan`` uses the processes.
     """
-    return emission.crew(emission.usual_jobs() if jobs is None else jobs, _emitter)
+    return emission.emitter_pool(emission.usual_jobs() if jobs is None else jobs, _emitter)
 
 
 def _emitter(name: str) -> Emitter | None:
@@ -249,7 +249,7 @@ def _emitter(name: str) -> Emitter | None:
 def emit_plan(
     plan: VerifiedIR,
     names: Sequence[str] | None = None,
-    crew: emission.EmitterPool | None = None,
+    pool: emission.EmitterPool | None = None,
     *,
     saved: bool = False,
 ) -> Emitted:
@@ -257,7 +257,7 @@ def emit_plan(
 
     names : emitters to run; None means those of the mission; then an output without its library is omitted
         with a warning (P005) instead of an error (P004)
-    crew : the processes to use; the files do not depend on them
+    pool : the processes to use; the files do not depend on them
     saved : whether the plan was read from a plan.json, which is not written again
     """
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
@@ -275,7 +275,7 @@ def emit_plan(
     ]
     emitters = tuple(known.plugins[n] for n in emitter_names if n in known.plugins)
     emitters = emitters if saved else (PLAN_JSON, *emitters)
-    for emitter, emitted in zip(emitters, (crew or emission.ALONE).emit(plan, emitters), strict=True):
+    for emitter, emitted in zip(emitters, (pool or emission.NO_WORKERS).emit(plan, emitters), strict=True):
         if not isinstance(emitted, Emission):
             diagnostics.append(_not_made(emitter.name, emitted, code))
             continue

@@ -32,7 +32,7 @@ _PLAIN = re.compile(r"\w(?:[\w .-]{0,126}[\w-])?").fullmatch
 """A file name that is valid on every system and leads into no other folder."""
 
 Load = Callable[[str], Emitter | None]
-Outcome = Emission | Exception | str
+EmitterResult = Emission | Exception | str
 """The emission of an emitter, its exception, or the fault of its result."""
 
 
@@ -42,7 +42,7 @@ def usual_jobs() -> int:
 
 
 class EmitterPool:
-    """The processes that emit: this one, and the workers of the pool that ``crew`` made.
+    """The processes that emit: this one, and the workers of the pool that ``emitter_pool`` made.
 
     plans : the ends of the pipes through which workers get the plan
     """
@@ -68,19 +68,21 @@ class EmitterPool:
                 with suppress(BrokenExecutor):
                     self._work.append(_Work(share, plan, self._pool.submit(_emissions, i, share)))
 
-    def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
-        """Run emitters and return their outcomes in order."""
+    def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[EmitterResult]:
+        """Run emitters and return their results in order."""
         names = {emitter.name for emitter in emitters}
         busy = [work for work in self._work if names.intersection(work.names)]
         for work in busy:
             with suppress(OSError):  # a dead worker is noticed by its missing result
                 work.plan.send((plan, names))
         forked = {name for work in busy for name in work.names}
-        outcomes: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in forked}
+        results: dict[str, EmitterResult] = {
+            e.name: _result(e, plan) for e in emitters if e.name not in forked
+        }
         for work in busy:
             with suppress(Exception):  # without a worker's result this process makes the files, or fails
-                outcomes |= work.made.result()
-        return [outcomes[e.name] if e.name in outcomes else _outcome(e, plan) for e in emitters]
+                results |= work.made.result()
+        return [results[e.name] if e.name in results else _result(e, plan) for e in emitters]
 
 
 class _Work(NamedTuple):
@@ -91,11 +93,11 @@ class _Work(NamedTuple):
     made: Future[dict[str, Emission]]
 
 
-ALONE = EmitterPool()
+NO_WORKERS = EmitterPool()
 
 
 @contextmanager
-def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
+def emitter_pool(jobs: int, load: Load) -> Iterator[EmitterPool]:
     """Yield this process and ``jobs`` - 1 workers, which end with the block in any case.
 
     load : returns an emitter by its name, None for an unusable one; also called in the workers
@@ -105,12 +107,12 @@ def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
         yield EmitterPool(load=load)
         return
     pipes = [Pipe(duplex=False) for _ in range(jobs - 1)]
-    orders, plans = [end for end, _ in pipes], [start for _, start in pipes]
+    receivers, plans = [end for end, _ in pipes], [start for _, start in pipes]
     try:
-        with pool_of(jobs - 1, _begin, (load, orders, plans)) as pool:
+        with pool_of(jobs - 1, _begin, (load, receivers, plans)) as pool:
             with uninterrupted():
                 pool.submit(os.getpid)  # the pool forks all its workers at the first task
-            for end in orders:
+            for end in receivers:
                 end.close()
             yield EmitterPool(pool, plans, load)
     finally:
@@ -118,30 +120,30 @@ def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
             start.close()
 
 
-_HERE: list[Any] = []
+_IN_WORKER: list[Any] = []
 """In a worker: the loader of emitters, and the ends of the pipes for plans."""
 
 
-def _begin(load: Load, orders: Sequence[Connection], plans: Sequence[Connection]) -> None:
+def _begin(load: Load, receivers: Sequence[Connection], plans: Sequence[Connection]) -> None:
     """Initialise a worker: keep its own ends of the pipes."""
     for start in plans:
         start.close()
-    _HERE[:] = load, orders
+    _IN_WORKER[:] = load, receivers
 
 
 def _emissions(i: int, names: Sequence[str]) -> dict[str, Emission]:
     """Prepare emitters, wait for a plan in pipe ``i``, and return their emissions without the failed ones."""
-    load, orders = _HERE
+    load, receivers = _IN_WORKER
     emitters = [emitter for name in names if (emitter := load(name)) is not None]
     for emitter in emitters:
         with suppress(Exception):
             emitter.prepare()
-    plan, ordered = orders[i].recv()
-    outcomes = {emitter.name: _outcome(emitter, plan) for emitter in emitters if emitter.name in ordered}
-    return {name: emission for name, emission in outcomes.items() if isinstance(emission, Emission)}
+    plan, requested = receivers[i].recv()
+    results = {emitter.name: _result(emitter, plan) for emitter in emitters if emitter.name in requested}
+    return {name: emission for name, emission in results.items() if isinstance(emission, Emission)}
 
 
-def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:
+def _result(emitter: Emitter, plan: VerifiedIR) -> EmitterResult:
     try:
         emission: Any = emitter.emit(plan)
     except Exception as fault:  # noqa: BLE001  a plugin may raise anything

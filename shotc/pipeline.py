@@ -160,7 +160,7 @@ def run_refined(
     the refiner gives no path, the later passes judge the convex one, and the errors state the result. If a
     refined shot does not fit the duration of its convex path, the run is repeated with a longer one.
     """
-    from shotc.passes.refine_path import blame, needed, shortest_refined, still_true
+    from shotc.passes.refine_path import blame, needed, shortest_refined, valid_on_refined
     from shotc.passes.solve_path_qp import SolvePathQp
 
     lowered = run(passes, value, ctx, stop_after)
@@ -179,7 +179,7 @@ def run_refined(
             return again
     late = tuple(d for report in lowered.reports[k + 1 :] for d in report.diagnostics)
     if not has_errors(late):
-        true = lowered._replace(diagnostics=still_true((convex, refined), lowered.diagnostics))
+        true = lowered._replace(diagnostics=valid_on_refined((convex, refined), lowered.diagnostics))
         return _accounted(true, seat, (convex, refined))
     if refined is convex:
         return lowered

@@ -64,7 +64,7 @@ def key_of(job: Job) -> str:
     return sha256(identity.encode() + job.data).hexdigest()
 
 
-def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | None:
+def recorded_outcome(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | None:
     """Return the recorded outcome of a job; None if the job has to be planned again.
 
     entry : one of ``Record.done``

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from shotc import plugins
-from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
+from shotc.api import Compilation, PlanOptions, compile_source, emit_plan, emitter_pool
 from shotc.cli import console
 from shotc.cli.console import Progress, known, listed
 from shotc.cli.earlier_outputs import print_left_over, warn_of_earlier
@@ -143,7 +143,7 @@ def plan(
         raise typer.BadParameter("it is for several missions, not for one", param_hint="--workers")
     source = read_mission(specs[0])
     stop = stop_after or dump_ir
-    with crew(1 if stop else jobs) as hands, Progress() as progress:
+    with emitter_pool(1 if stop else jobs) as hands, Progress() as progress:
 
         def start(mission: MissionIR) -> None:
             hands.prepare(mission.emit if emitters is None else emitters)

@@ -10,7 +10,7 @@ import typer
 
 from shotc import plugins
 from shotc.api import PlanOptions
-from shotc.batch.record import Record, folder_of, key_of, still_true
+from shotc.batch.record import Record, folder_of, key_of, recorded_outcome
 from shotc.batch.work import Job, MissionOutcome, Planned, planned
 from shotc.checking import models_of
 from shotc.cli import console, refiner
@@ -71,7 +71,7 @@ class _Batch:
         self.root = root
         self.record = Record.of(root)
         entries = self.record.done()
-        earlier = {job.name: still_true(job, entries.get(key_of(job), {}), root) for job in jobs}
+        earlier = {job.name: recorded_outcome(job, entries.get(key_of(job), {}), root) for job in jobs}
         self.outcomes = {name: outcome for name, outcome in earlier.items() if outcome is not None}
         self.before = len(self.outcomes)
         self.left = [job for job in jobs if job.name not in self.outcomes]

@@ -46,7 +46,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.fleets.apart import between
 from shotc.passes.verify.fleets.pyro import FleetSpline, burning_beside
 
-MOST_TURNS = 6
+MOST_ORDERS = 6
 """Most orders of fleets that are tried."""
 
 
@@ -113,9 +113,9 @@ def _in_turn(
 
     first : the way home of each fleet if it were alone
     """
-    for turns in islice(permutations(range(len(homings))), MOST_TURNS):
+    for order in islice(permutations(range(len(homings))), MOST_ORDERS):
         placed: dict[int, FleetReturn] = {}
-        for k in turns:
+        for k in order:
             free = (
                 fleet_return
                 for fleet_return in _choices(homings[k], time, first[k])

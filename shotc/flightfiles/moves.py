@@ -101,7 +101,7 @@ def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPat
             yield LimitFinding(limit, WorstValue(peak.value, peak.time, "bounded"), peak.leeway, owner)
 
 
-class Peak(NamedTuple):
+class LargestSample(NamedTuple):
     """The largest value in excess of the uncertainty: the value, its time in seconds, and the uncertainty."""
 
     value: float
@@ -109,7 +109,7 @@ class Peak(NamedTuple):
     leeway: float
 
 
-def _acceleration(flight: ClockedFlight) -> Peak | None:
+def _acceleration(flight: ClockedFlight) -> LargestSample | None:
     rows = flight.rows
     if rows is None:
         whole = pieces(flight.curve)
@@ -127,7 +127,7 @@ def _acceleration(flight: ClockedFlight) -> Peak | None:
     return peak
 
 
-def _jerk(flight: ClockedFlight) -> Peak | None:
+def _jerk(flight: ClockedFlight) -> LargestSample | None:
     rows = flight.rows
     measured = None if rows is None else rows.values(*ACCELERATION)
     if rows is None or measured is None:
@@ -139,7 +139,7 @@ def _rounding(rows: DroneRows, *columns: str) -> float:
     return quantum([rows.texts(column) or [] for column in columns])
 
 
-def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
+def _mean(values: Array, time: Array, rounding: float) -> LargestSample | None:
     """Return the largest rate of change between two rows of values (N, k)."""
     if len(time) < 2:
         return None
@@ -147,9 +147,9 @@ def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
     return _peak(norm(np.diff(values, axis=0)) / step, time[1:], 4 * rounding / step)
 
 
-def _peak(size: Array, time: Array, leeway: Array) -> Peak:
+def _peak(size: Array, time: Array, leeway: Array) -> LargestSample:
     k = int(np.argmax(size - leeway))
-    return Peak(float(size[k]), float(time[k]), float(leeway[k]))
+    return LargestSample(float(size[k]), float(time[k]), float(leeway[k]))
 
 
 def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:

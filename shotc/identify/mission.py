@@ -35,7 +35,7 @@ from shotc.pipeline import ASSIGN, FRONT, PassSettings, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
-UNFIT = re.compile(r"[^A-Za-z0-9_-]+")
+NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]+")
 LONGEST_NAME_CHARACTERS = 60
 """Characters of a target's name, which leave room for a number behind it."""
 
@@ -58,6 +58,8 @@ class Identification(NamedTuple):
 
     text : the mission with its targets; None if there is an error
     tasks, pictures : the examined keyframes, and their cameras' pictures
+    sources : the files that the diagnostics refer to, by name
+    title : name of the mission, empty if it is not known
     """
 
     text: bytes | None
@@ -171,7 +173,7 @@ def _names(mission: MissionIR, result: SearchResult) -> list[str]:
     taken = {target.name for target in (*mission.targets, *mission.groups)}
     names: list[str] = []
     for target in result.targets:
-        own = UNFIT.sub("-", target.name or "").strip("-_")[:LONGEST_NAME_CHARACTERS].strip("-_")
+        own = NOT_IN_NAMES.sub("-", target.name or "").strip("-_")[:LONGEST_NAME_CHARACTERS].strip("-_")
         numbered = (f"{own or 'target'}-{n}" for n in range(2 if own else 1, 10_000))
         name = next(n for n in chain([own] if own else [], numbered) if n not in taken)
         taken.add(name)

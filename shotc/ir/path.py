@@ -11,7 +11,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import ClassVar, TypeVar
 
-from shotc.geom.bernstein import Piecewise
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
@@ -110,6 +112,11 @@ class MovingLeg(_OnCurve):
     start: float | None
     path: KeyPath
     smoother: float = 1.0
+
+    @property
+    def keyframes_at(self) -> Array:
+        """The path parameters of its keyframes, shape (K,), metres."""
+        return np.array([mark.s for mark in self.marks])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,7 +12,7 @@ from shotc.diag.model import Diagnostic
 from shotc.rounding import at_least, at_most, up
 from shotc.simulation.blind import BLIND_S
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.deviations import RECEIVER_SHARE, Lag, Peak, needed
+from shotc.simulation.deviations import RECEIVER_SHARE, Lag, LargestDeviation, needed
 from shotc.simulation.judge import Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.sensors import Gps, Interval
@@ -178,7 +178,7 @@ def _unplanned(rehearsed: Rehearsed) -> Iterator[Diagnostic]:
         )
 
 
-def _circumstances(led: Peak, run: Run, drone: int) -> Iterator[str]:
+def _circumstances(led: LargestDeviation, run: Run, drone: int) -> Iterator[str]:
     yield f"worst in run {run.number}, at {led.time:.1f} s"
     near = run.courses[drone].nearest
     if near is not None:

@@ -72,7 +72,7 @@ class Lag:
 
 
 @dataclass(frozen=True, slots=True)
-class Peak:
+class LargestDeviation:
     """The largest of a drone's distances in one run.
 
     metres : 0 if there is none that counts
@@ -94,7 +94,7 @@ def lags(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[tuple[L
     return [tuple(each[r] for each in lags_of_shots) for r in range(len(world.runs))]
 
 
-def misled(world: World, track: DroneTrajectory, flown: DroneRuns, astray: Array) -> list[Peak]:
+def misled(world: World, track: DroneTrajectory, flown: DroneRuns, astray: Array) -> list[LargestDeviation]:
     """Return for every run the largest stray of a drone that is mainly its receiver's error.
 
     Replanned shots, flight without positions, and the ways back from both leave the plan on purpose, so they
@@ -107,7 +107,7 @@ def misled(world: World, track: DroneTrajectory, flown: DroneRuns, astray: Array
     return _peaks(np.where(counts, astray, 0.0), flown.times)
 
 
-def unplaced(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[Peak]:
+def unplaced(world: World, track: DroneTrajectory, flown: DroneRuns) -> list[LargestDeviation]:
     """Return for every run the largest error of a drone's own position while it has none by satellites."""
     lost, times = world.conditions.lost(flown.drone), flown.times
     aboard = np.array([within(t, lost) and t <= track.curve.end for t in times.tolist()], dtype=bool)
@@ -127,10 +127,10 @@ def needed(mission: MissionIR) -> float:
     return max(LEAST_STRAY_M, min(clearances))
 
 
-def _peaks(off: Array, times: Array) -> list[Peak]:
+def _peaks(off: Array, times: Array) -> list[LargestDeviation]:
     """Return the largest distance of every run; off : (F, R), metres, at times (F,)."""
     worst = np.argmax(off, axis=0)
-    return [Peak(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
+    return [LargestDeviation(float(off[k, r]), float(times[k])) for r, k in enumerate(worst.tolist())]
 
 
 def _moving(world: World, shot: Anew) -> tuple[str, ...]:

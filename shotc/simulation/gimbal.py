@@ -46,7 +46,7 @@ def axes_of(yaw: Array, pitch: Array) -> Array:
     return np.stack([right, cross(forward, right), forward], axis=-1)
 
 
-class CameraAngles(NamedTuple):
+class GimbalAngles(NamedTuple):
     """Yaw, pitch and roll, (R,) each, rad; roll is positive with the right side up."""
 
     yaw: Array
@@ -54,12 +54,12 @@ class CameraAngles(NamedTuple):
     roll: Array
 
 
-def angles_of(axes: Array) -> CameraAngles:
+def angles_of(axes: Array) -> GimbalAngles:
     """Return the angles of R_WC, shape (R, 3, 3)."""
     forward, right = axes[..., 2], axes[..., 0]
     yaw = np.arctan2(forward[..., 1], forward[..., 0])
     pitch = np.arcsin(np.clip(forward[..., 2], -1.0, 1.0))
-    return CameraAngles(yaw, pitch, np.arctan2(right[..., 2], -axes[..., 2, 1]))
+    return GimbalAngles(yaw, pitch, np.arctan2(right[..., 2], -axes[..., 2, 1]))
 
 
 def turn_rate(axes: Array, yaw_rate: Array, pitch_rate: Array) -> Array:

@@ -21,7 +21,7 @@ from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import ClosestApproach, between, nearest
-from shotc.simulation.deviations import Lag, Peak, lags, misled, unplaced
+from shotc.simulation.deviations import Lag, LargestDeviation, lags, misled, unplaced
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.replans import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
@@ -86,8 +86,8 @@ class TrackingError:
     near: tuple[ClosestApproach, ...]
     replans: Replans | None = None
     spoiled: float = 0.0
-    misled: Peak = field(default_factory=Peak)
-    unplaced: Peak = field(default_factory=Peak)
+    misled: LargestDeviation = field(default_factory=LargestDeviation)
+    unplaced: LargestDeviation = field(default_factory=LargestDeviation)
     straight: ReturnLack | None = None
     landed: float | None = None
 

@@ -23,7 +23,7 @@ from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import RequirementVerdict, enough, held, verdicts
 from shotc.spec.presets import RUN_COUNT
 
-SILENT = Rehearsal(
+UNSTATED = Rehearsal(
     RehearsalPromise(), path=(), runs=RUN_COUNT, loop="replay", wind=None, gusts=0.0, gps="rtk", wander=0.0
 )
 """The rehearsal of a mission that states none."""
@@ -61,7 +61,7 @@ class Rehearsed:
     """The result of a rehearsal.
 
     held, needed : number of runs that keep all requirements, and the number that must
-    strays : of cameras over time; None for shows
+    strays : distances of the drones from their plans over time; None for shows
     """
 
     ir: TrajectoryIR
@@ -95,33 +95,33 @@ class Rehearsed:
 
 def conditions_of(mission: MissionIR, options: RehearsalOptions) -> Conditions:
     """Return the conditions of a mission and a command line."""
-    usual = mission.rehearsal or SILENT
-    wind = usual.wind or Wind(mission.wind, mission.wind_toward)
+    stated = mission.rehearsal or UNSTATED
+    wind = stated.wind or Wind(mission.wind, mission.wind_toward)
     return Conditions(
-        loop=options.loop or usual.loop,
+        loop=options.loop or stated.loop,
         wind=air.WindField(
             speed=_either(options.wind, wind.speed),
             toward=wind.toward if options.bearing is None else yaw_of(radians(options.bearing) + pi),
-            gusts=_either(options.gusts, usual.gusts),
+            gusts=_either(options.gusts, stated.gusts),
         ),
-        gps=replace(GRADES[options.gps or usual.gps], offset=(options.bias, 0.0, 0.0)),
+        gps=replace(GRADES[options.gps or stated.gps], offset=(options.bias, 0.0, 0.0)),
         outages=options.outages,
-        truth=replace(options.truth, wander=_either(options.wander, usual.wander)),
+        truth=replace(options.truth, wander=_either(options.wander, stated.wander)),
         seed=options.seed,
         replanner=options.replanner,
         vehicle=options.vehicle,
     )
 
 
-def _either(given: float | None, usual: float) -> float:
-    return usual if given is None else given
+def _either(given: float | None, stated: float) -> float:
+    return stated if given is None else given
 
 
 def runs_of(ir: TrajectoryIR, conditions: Conditions, options: RehearsalOptions) -> int:
     """Return the number of runs of a mission and a command line; one if all runs are equal."""
     if alike(ir, conditions):
         return 1
-    return options.runs or (ir.keyframes.mission.rehearsal or SILENT).runs
+    return options.runs or (ir.keyframes.mission.rehearsal or UNSTATED).runs
 
 
 def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
@@ -137,7 +137,7 @@ def rehearse(
     blocks : of all runs, in any order
     finished : called with the number of finished runs
     """
-    promise = (ir.keyframes.mission.rehearsal or SILENT).promise
+    promise = (ir.keyframes.mission.rehearsal or UNSTATED).promise
     flown: list[RunBlock] = []
     for block in blocks:
         flown.append(block)

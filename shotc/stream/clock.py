@@ -9,7 +9,7 @@ RATE_HZ = 50
 PERIOD_S = 1.0 / RATE_HZ
 
 
-class Clock(Protocol):
+class FlightClock(Protocol):
     """Seconds that only increase, from any zero."""
 
     def now(self) -> float:

@@ -11,7 +11,7 @@ from shotc.diag.registry import has_errors
 from shotc.stream import flight_faults
 from shotc.stream.aim import LiveAim
 from shotc.stream.beginning import clock_time
-from shotc.stream.clock import PERIOD_S, RATE_HZ, Clock
+from shotc.stream.clock import PERIOD_S, RATE_HZ, FlightClock
 from shotc.stream.feed import Feed
 from shotc.stream.pilot import Pilot
 from shotc.stream.reading import BEAT_S
@@ -59,7 +59,7 @@ class StreamedFlight:
         self,
         crew: Sequence[PilotedDrone],
         feeds: Sequence[Feed],
-        clock: Clock,
+        clock: FlightClock,
         say: Callable[[str], None],
         at: float | None = None,
     ) -> None:

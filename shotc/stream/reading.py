@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from shotc.stream.clock import PERIOD_S, Clock
+from shotc.stream.clock import PERIOD_S, FlightClock
 from shotc.stream.messages import GimbalManager, Home, LocalPosition, Message, Origin
 from shotc.stream.vehicle import VehicleStatus
 
@@ -30,7 +30,7 @@ ASKED: tuple[tuple[type[Message], str, str], ...] = (
 
 
 def read(
-    vehicles: Sequence[VehicleStatus], clock: Clock, note: Callable[[str], None] = lambda _: None
+    vehicles: Sequence[VehicleStatus], clock: FlightClock, note: Callable[[str], None] = lambda _: None
 ) -> None:
     """Wait for all vehicles and read their answers; what does not arrive stays unknown."""
     start = now = clock.now()

@@ -22,7 +22,7 @@ from shotc.stream.aim import LiveAim
 from shotc.stream.autopilots import AUTOPILOTS, Autopilot
 from shotc.stream.beginning import clock_time
 from shotc.stream.checks import Ready
-from shotc.stream.clock import RATE_HZ, Clock
+from shotc.stream.clock import RATE_HZ, FlightClock
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import Feed
 from shotc.stream.flight import FlightResult, PilotedDrone, StreamedFlight
@@ -65,7 +65,9 @@ class Aboard:
 class Session:
     """One run, to be used in a ``with`` block, which closes its sockets."""
 
-    def __init__(self, plan: VerifiedIR, doors: Doors, clock: Clock, note: Callable[[str], None]) -> None:
+    def __init__(
+        self, plan: VerifiedIR, doors: Doors, clock: FlightClock, note: Callable[[str], None]
+    ) -> None:
         """Prepare a run; note : receives what happens, line by line."""
         self._plan = plan
         self._doors = doors

@@ -16,7 +16,7 @@ from typing import ClassVar
 
 import pytest
 
-from shotc.emission import crew, usual_jobs
+from shotc.emission import emitter_pool, usual_jobs
 from shotc.emit.base import Artifact, Emission
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux only")
@@ -88,7 +88,7 @@ class Unsendable(Heavy):
 
 def emitted(emitters, jobs, plan="plan"):
     known = {emitter.name: emitter for emitter in emitters}
-    with crew(jobs, known.get) as hands:
+    with emitter_pool(jobs, known.get) as hands:
         hands.prepare(list(known))
         return hands.emit(plan, emitters)
 
@@ -162,7 +162,7 @@ def test_what_a_worker_does_not_bring_back_is_made_here(kind, jobs):
 
 
 def test_what_was_not_prepared_is_made_here():
-    with crew(3, {}.get) as hands:
+    with emitter_pool(3, {}.get) as hands:
         hands.prepare(["nobody knows"])
         (outcome,) = hands.emit("plan", [Heavy("a")])
     assert maker(outcome) == HERE
@@ -170,12 +170,12 @@ def test_what_was_not_prepared_is_made_here():
 
 @pytest.mark.slow
 def test_no_worker_outlives_its_crew():
-    with crew(4, {}.get):
+    with emitter_pool(4, {}.get):
         assert len(children()) == 3
     assert children() == []
 
     def interrupted():
-        with crew(3, {}.get) as hands:
+        with emitter_pool(3, {}.get) as hands:
             hands.prepare([])
             raise KeyboardInterrupt
 
@@ -186,7 +186,7 @@ def test_no_worker_outlives_its_crew():
 
 def test_an_interrupt_from_the_terminal_leaves_workers_to_their_crew():
     known = {"a": Heavy("a")}
-    with crew(2, known.get) as hands:
+    with emitter_pool(2, known.get) as hands:
         hands.prepare(["a"])
         (worker,) = children()
         os.kill(worker, signal.SIGINT)
@@ -199,7 +199,7 @@ def test_no_fork_beside_threads():
     thread = threading.Thread(target=done.wait)
     thread.start()
     try:
-        with crew(3, {}.get):
+        with emitter_pool(3, {}.get):
             assert children() == []
     finally:
         done.set()
@@ -208,8 +208,8 @@ def test_no_fork_beside_threads():
 
 ORPHANS = """
 import os, signal
-from shotc.emission import crew
-with crew(3, {}.get):
+from shotc.emission import emitter_pool
+with emitter_pool(3, {}.get):
     print(open(f"/proc/self/task/{os.getpid()}/children").read(), flush=True)
     os.kill(os.getpid(), signal.SIGKILL)
 """

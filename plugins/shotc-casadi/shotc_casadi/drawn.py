@@ -13,7 +13,7 @@ ALONG_M = 1e-6  # metres from a leg, below which a place has no side of it
 
 def drawn_by(placed: PlacedShot, leg: MovingLeg) -> DrawnPath | None:
     """Return the path that a shot draws; a leg that the convex path leaves, round an obstacle, is free."""
-    drawn = drawn_path(placed, np.array([mark.s for mark in leg.marks]))
+    drawn = drawn_path(placed, leg.keyframes_at)
     return None if drawn is None else drawn.but_for(leg.curve.channels(0, 1, 2))
 
 

@@ -23,7 +23,7 @@ SAME_LENS_DEG = 1e-3
 """Largest difference, degrees, at which two fields of view count as equal."""
 
 
-class Written(NamedTuple):
+class CameraMission(NamedTuple):
     """A mission as text, with its numbers of shots and keyframes, and the number of cameras in the file."""
 
     text: str
@@ -34,7 +34,7 @@ class Written(NamedTuple):
 
 def written(
     name: str, what: str, footage: ImportedTakes, options: ImportOptions, notes: Notes
-) -> Written | None:
+) -> CameraMission | None:
     """Return a mission, None if no take has two cameras.
 
     name : name of the mission
@@ -68,7 +68,7 @@ def written(
         )
     said = {f"# {note.comment}": None for note in notes.assumptions}
     body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
-    return Written("\n".join([*head, *said, *body, ""]), len(drawn), counts[1], counts[0])
+    return CameraMission("\n".join([*head, *said, *body, ""]), len(drawn), counts[1], counts[0])
 
 
 def _rested(take: Take) -> Take:

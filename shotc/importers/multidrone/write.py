@@ -21,7 +21,7 @@ from shotc.importers.xml_tree import Node
 HEAD = "# Imported from a mission of the MultiDrone project."
 
 
-class Written(NamedTuple):
+class FilmMission(NamedTuple):
     """A mission as text, and its numbers of drones and shots."""
 
     text: str
@@ -31,7 +31,7 @@ class Written(NamedTuple):
 
 def written_mission(
     name: str, root: Node, sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes
-) -> Written | None:
+) -> FilmMission | None:
     """Return a mission with this name, None if nothing is left to film."""
     films = list(timed(films_of(sequences, frame, notes), frame, notes))
     if not films:
@@ -53,7 +53,7 @@ def written_mission(
         lines += [*_not_yet_written(notes.below(film.action.node), said), *shots]
         said.update(lines)
     lines = [HEAD, *(line.strip() for line in _not_yet_written(notes.below(root), said)), *lines]
-    return Written("\n".join([*lines, ""]), number, sum(len(film.action.roles) for film in films))
+    return FilmMission("\n".join([*lines, ""]), number, sum(len(film.action.roles) for film in films))
 
 
 def _not_yet_written(comments: Iterable[str], said: set[str]) -> Iterator[str]:

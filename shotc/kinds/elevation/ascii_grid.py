@@ -29,7 +29,7 @@ class GridHeader(NamedTuple):
 
 
 class Steps(NamedTuple):
-    """Distances of posts, East and North, and the number of columns and rows."""
+    """Distances of posts, East and North, in metres or degrees, and the number of columns and rows."""
 
     x: float
     y: float

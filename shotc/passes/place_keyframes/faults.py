@@ -3,8 +3,6 @@
 Keyframes that share a line of the mission, as generated ones do, are reported once, for the worst of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from math import degrees, hypot, pi, radians

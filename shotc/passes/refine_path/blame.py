@@ -85,7 +85,9 @@ def shortest_refined(
     return tuple(refined_time(d) for d in diagnostics)
 
 
-def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+def valid_on_refined(
+    paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]
+) -> tuple[Diagnostic, ...]:
     """Return the diagnostics without warnings about convex legs that are not flown; paths as in ``blame``.
 
     Where a guide left its ideal, or a drawn path its lines, and was refined, the deviation of the refined

@@ -173,7 +173,7 @@ def measured(path: PathIR) -> PathIR:
             if not isinstance(leg, MovingLeg) or leg.shot is None:
                 continue
             shot = placed[leg.shot]
-            drawn = drawn_path(shot, np.array([mark.s for mark in leg.marks]))
+            drawn = drawn_path(shot, leg.keyframes_at)
             if drawn is not None:
                 space = flight_space(mission, mission.drone(track.drone))
                 anew[leg.shot] = off_drawn(space, shot, drawn, leg.curve.channels(X, Y, Z))

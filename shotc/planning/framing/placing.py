@@ -1,7 +1,5 @@
 """Camera angles that put each target on the nearest place of its composition set (framing Eq. 1 and 2)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from math import atan2, hypot, pi

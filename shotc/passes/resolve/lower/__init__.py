@@ -16,7 +16,7 @@ from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import FileReader, Files, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
-from shotc.passes.resolve.lower.music import Heard, music_of
+from shotc.passes.resolve.lower.music import MusicReading, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.shots import Shots, ShotSurroundings, ShowMaterial, expand_shots
@@ -63,13 +63,13 @@ def lowered(
     """Resolve a mission; kinds, emitters : as in ``Resolve``."""
     world = _world(ir)
     progress("expanding the shots")
-    heard = music_of(ir, world.files)
-    shots = _shots(ir, world, kinds, heard)
-    show = _show(ir, world, shots, heard)
+    music = music_of(ir, world.files)
+    shots = _shots(ir, world, kinds, music)
+    show = _show(ir, world, shots, music)
     names = check_names(ir.spec, ir.origins, emitters)
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
-    faults = once([*world.faults, *heard.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
-    mission, courses = with_framings(with_times(_mission(ir, world, shots, show, heard)))
+    faults = once([*world.faults, *music.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
+    mission, courses = with_framings(with_times(_mission(ir, world, shots, show, music)))
     return PartialMission(mission, courses, tuple(faults), world.astray, world.sound, world.level)
 
 
@@ -102,8 +102,8 @@ class _World(NamedTuple):
     standing: Obstacles
 
 
-def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: Heard) -> Shots:
-    cast = ShotSurroundings(
+def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], music: MusicReading) -> Shots:
+    surroundings = ShotSurroundings(
         kinds,
         world.drones,
         world.targets.by_name,
@@ -113,18 +113,20 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: H
         world.files.read,
         partial(match_files, ir.folder, ir.origins),
         world.heights,
-        heard.music,
+        music.music,
     )
-    return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, WindSpec()))
+    return expand_shots(
+        ir.spec, surroundings, lambda: resolve_drone("spare", DroneSpec(), world.put, WindSpec())
+    )
 
 
-def _show(ir: LoadedMission, world: _World, shots: Shots, heard: Heard) -> ShowMaterial:
+def _show(ir: LoadedMission, world: _World, shots: Shots, music: MusicReading) -> ShowMaterial:
     """Return what fleets fly and draw; a mission without them loads none of it."""
     if not ir.spec.fleets:
         return ShowMaterial()
     from shotc.passes.resolve.lower.show import show_material
 
-    return show_material(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
+    return show_material(ir, PadSite(world.put, world.heights), world.files, shots.displays, music.song)
 
 
 def _world(ir: LoadedMission) -> _World:
@@ -161,7 +163,9 @@ def _world(ir: LoadedMission) -> _World:
     )
 
 
-def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial, heard: Heard) -> MissionIR:
+def _mission(
+    ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial, music: MusicReading
+) -> MissionIR:
     spec = ir.spec
     return MissionIR(
         name=spec.mission,
@@ -186,7 +190,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial,
         source=_source(ir, world.read, show),
         wind_toward=toward(spec.world.wind),
         rehearsal=rehearsal(spec.rehearse),
-        music=heard.music,
+        music=music.music,
     )
 
 

@@ -19,7 +19,7 @@ LARGEST_SONG_BYTES = 100_000_000
 PATH: KeyPath = ("music",)
 
 
-class Heard(NamedTuple):
+class MusicReading(NamedTuple):
     """The music, its faults, and the song as (name, bytes); None where there is none."""
 
     music: Music | None = None
@@ -27,11 +27,11 @@ class Heard(NamedTuple):
     song: tuple[str, bytes] | None = None
 
 
-def music_of(ir: LoadedMission, files: Files) -> Heard:
+def music_of(ir: LoadedMission, files: Files) -> MusicReading:
     """Resolve the music of a mission and read its files."""
     spec = ir.spec.music
     if spec is None:
-        return Heard()
+        return MusicReading()
     times = _times(spec, files)
     faults = [times] if isinstance(times, Diagnostic) else []
     if not ir.spec.fleets:
@@ -51,7 +51,7 @@ def music_of(ir: LoadedMission, files: Files) -> Heard:
         PATH,
         unread=isinstance(times, Diagnostic),
     )
-    return Heard(music, tuple(faults), None if isinstance(song, Diagnostic) else song)
+    return MusicReading(music, tuple(faults), None if isinstance(song, Diagnostic) else song)
 
 
 def _unused(origins: OriginMap) -> Diagnostic:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def named_pictures(
-    spec: MissionSpec, displays: "Iterable[Display]", cast: "ShotSurroundings"
+    spec: MissionSpec, displays: "Iterable[Display]", surroundings: "ShotSurroundings"
 ) -> tuple[Mapping[str, Target | None], list[Diagnostic]]:
     """Return the named pictures as targets, None for one of unknown size, and their faults."""
     targets: dict[str, Target | None] = {}
@@ -29,15 +29,15 @@ def named_pictures(
     for display in displays:
         for picture in (p for p in display.pictures if p.name is not None):
             name, where = str(picture.name), (*picture.path, "name")
-            if name in cast.targets or name in targets:
-                label = cast.origins.value(where)
+            if name in surroundings.targets or name in targets:
+                label = surroundings.origins.value(where)
                 help_ = f"write `name: {name}-2`"
                 faults.append(Diagnostic("D129", f"there are two targets `{name}`", (label,), help=help_))
                 continue
             body = _body(picture, _allowance(spec, display))
             targets[name] = None if body is None else Target(name, body[0], body[1], where)
             if body is None:
-                faults.append(_without_size(cast.origins, picture))
+                faults.append(_without_size(surroundings.origins, picture))
     return targets, faults
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from shotc.diag.model import Diagnostic
+from shotc.diag.model import Diagnostic, Label
 from shotc.diag.plugin_faults import plugin_failed
 from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, GroundHeight, flat
@@ -71,64 +71,59 @@ class ShowMaterial(NamedTuple):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def expand_shots(spec: MissionSpec, cast: ShotSurroundings, spare: Callable[[], Drone]) -> Shots:
+def expand_shots(spec: MissionSpec, surroundings: ShotSurroundings, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a valid drone is checked with the drone of ``spare`` and left out."""
-    diagnostics: list[Diagnostic] = []
-    deferred: list[Deferred] = []
-    displays: list[Display] = []
-    for i, written in enumerate(spec.shots):
-        if written.drone == NO_DRONE:
-            expansion = _expand(spec, written, cast, spare(), ("shots", i))
-            diagnostics += expansion.diagnostics
-            deferred += expansion.deferred
-            displays += [] if expansion.display is None else [expansion.display]
+    written = [(("shots", i), shot) for i, shot in enumerate(spec.shots)]
+    shown = [
+        _expand(spec, shot, surroundings, spare(), path) for path, shot in written if shot.drone == NO_DRONE
+    ]
+    diagnostics = [d for expansion in shown for d in expansion.diagnostics]
+    deferred = [d for expansion in shown for d in expansion.deferred]
+    displays = [expansion.display for expansion in shown if expansion.display is not None]
     # Cameras may film the pictures of any display by their names.
     pictures: Mapping[str, Target | None] = {}
-    if any(written.drone == NO_DRONE for written in spec.shots):
+    if shown:
         from shotc.passes.resolve.lower.named_pictures import named_pictures, unread_names
 
-        pictures, wrong = named_pictures(spec, displays, cast)
-        cast = cast._replace(targets={**unread_names(spec, displays), **cast.targets, **pictures})
+        pictures, wrong = named_pictures(spec, displays, surroundings)
+        targets = {**unread_names(spec, displays), **surroundings.targets, **pictures}
+        surroundings = surroundings._replace(targets=targets)
         diagnostics += wrong
     shots: list[Shot] = []
-    for i, written in enumerate(spec.shots):
-        if written.drone == NO_DRONE:
+    for path, shot in written:
+        if shot.drone == NO_DRONE:
             continue
-        path = ("shots", i)
-        if written.target is not None and written.target not in cast.targets:
-            where = (*path, "target")
-            diagnostics.append(unknown_target(cast.origins, where, written.target, cast.targets))
-        diagnostics += _focus(spec, written, cast, path)
-        expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
-        diagnostics += expansion.diagnostics
+        drone = surroundings.drones.get(shot.drone)
+        expansion = _expand(spec, shot, surroundings, drone or spare(), path)
+        diagnostics += [*_wrong_names(spec, shot, surroundings, path), *expansion.diagnostics]
         deferred += expansion.deferred
-        if (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
-            shots.append(_shot(spec, written, expansion, path))
+        if (expansion.keyframes or expansion.ideal) and drone is not None:
+            shots.append(_shot(spec, shot, expansion, path))
     targets_of_pictures = tuple(target for target in pictures.values() if target is not None)
     return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), targets_of_pictures)
 
 
 def _expand(
-    spec: MissionSpec, shot: ShotBase, cast: ShotSurroundings, drone: Drone, path: KeyPath
+    spec: MissionSpec, shot: ShotBase, surroundings: ShotSurroundings, drone: Drone, path: KeyPath
 ) -> Expansion:
     scene = Scene(
         drone=drone,
-        rules=cast.rules,
+        rules=surroundings.rules,
         composition=shot.composition or spec.rules.composition,
-        targets=cast.targets,
+        targets=surroundings.targets,
         path=path,
-        origins=cast.origins,
-        origin=cast.origin,
-        read=cast.read,
-        match=cast.match,
+        origins=surroundings.origins,
+        origin=surroundings.origin,
+        read=surroundings.read,
+        match=surroundings.match,
         pace=spec.rules.pace,
         fleets={name: fleet.groups for name, fleet in spec.fleets.items()},
-        ground=cast.ground,
-        music=cast.music,
+        ground=surroundings.ground,
+        music=surroundings.music,
     )
-    kind = cast.kinds[shot.kind]
+    kind = surroundings.kinds[shot.kind]
     expansion = expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)
-    if not _moves(expansion.keyframes, cast.targets):
+    if not _moves(expansion.keyframes, surroundings.targets):
         return expansion
     return moving.on_clock(shot, scene, expansion)
 
@@ -164,25 +159,31 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
     )
 
 
-def _focus(spec: MissionSpec, shot: ShotBase, cast: ShotSurroundings, path: KeyPath) -> list[Diagnostic]:
-    """Return the faults of a shot's focus: an unknown target, or no aperture."""
+def _wrong_names(
+    spec: MissionSpec, shot: ShotBase, surroundings: ShotSurroundings, path: KeyPath
+) -> Iterator[Diagnostic]:
+    """Yield the faults of a shot's target and focus: an unknown target, or a focus without an aperture."""
+    origins, targets = surroundings.origins, surroundings.targets
+    if shot.target is not None and shot.target not in targets:
+        yield unknown_target(origins, (*path, "target"), shot.target, targets)
     where = (*path, "focus")
-    if shot.focus is None:
-        return []
-    if isinstance(shot.focus, str) and shot.focus not in cast.targets:
-        return [unknown_target(cast.origins, where, shot.focus, cast.targets)]
+    if isinstance(shot.focus, str) and shot.focus not in targets:
+        yield unknown_target(origins, where, shot.focus, targets)
+    elif shot.focus is not None:
+        yield from _without_aperture(spec, shot, origins.value(where))
+
+
+def _without_aperture(spec: MissionSpec, shot: ShotBase, label: Label) -> Iterator[Diagnostic]:
+    """Yield the fault of a focus if the camera of the shot's drone has no aperture."""
     drone = spec.drones.get(shot.drone)
-    if drone is None or drone.camera.aperture is not None:
-        return []
-    return [
-        Diagnostic(
+    if drone is not None and drone.camera.aperture is None:
+        yield Diagnostic(
             "K021",
             f"shot `{shot.id}` has a `focus`, but the camera of `{shot.drone}` has no aperture",
-            (cast.origins.value(where),),
+            (label,),
             ("the depth of field follows from the aperture",),
             f"write `camera: {{aperture: f/2.8}}` of `{shot.drone}`, or take `focus` out",
         )
-    ]
 
 
 def _above(shot: ShotBase) -> Above | None:

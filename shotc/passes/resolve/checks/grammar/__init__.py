@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.checks.grammar.alone import check_alone
 from shotc.passes.resolve.checks.grammar.cuts import check_cuts
+from shotc.passes.resolve.checks.grammar.single_shot import check_single_shot
 from shotc.spec.mission import MissionSpec
 
 
@@ -36,7 +36,7 @@ def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -
     lasting = [shot for shot in mission.shots if shot.timing.duration is not None or _timed(shot)]
     if lasting:
         for shot in lasting:
-            diagnostics += check_alone(mission, shot, judged)
+            diagnostics += check_single_shot(mission, shot, judged)
     return diagnostics
 
 

@@ -19,8 +19,13 @@ EMPTY_S = 0.5  # seconds that a shot may be without its subject
 SHOT_SAMPLES = 200  # samples of a shot
 
 
-def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
-    """Yield the faults of a shot with a known duration, independent of other shots."""
+def check_single_shot(
+    mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bool]
+) -> Iterator[Diagnostic]:
+    """Yield the faults of a shot with a known duration, independent of other shots.
+
+    judged : whether a rule, by its slug, applies to a shot; `allow` turns rules off
+    """
     if judged("short-shot", shot):
         yield from check_length(mission, shot)
     if judged("walks-out-of-frame", shot):
