@@ -18,6 +18,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
+from shotc.ir.pace import most_share
 from shotc.ir.phases import KeyframeTime, PhaseName, Reference
 
 Pose = tuple[float, ...]
@@ -99,6 +100,7 @@ class MovingLeg(_OnCurve):
     pace  : share of the limits if the duration is free; smoother : smoothing over the normal one
     duration : required duration of the whole leg with its holds, seconds, or None
     start : earliest mission time of its first frame, or None
+    most : share of the limits at most in a duration that planning gives to a leg whose time is free
     """
 
     phase: PhaseName
@@ -112,6 +114,11 @@ class MovingLeg(_OnCurve):
     start: float | None
     path: KeyPath
     smoother: float = 1.0
+    most: float = 1.0
+
+    def given(self, seconds: float) -> MovingLeg:
+        """Return a leg whose time is free with a duration, seconds; it may use ``most_share`` there."""
+        return replace(self, duration=seconds, most=most_share(self.pace))
 
     @property
     def keyframes_at(self) -> Array:

@@ -87,7 +87,7 @@ def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tup
                 why, needs = f"the refined path cannot keep {fault}", fault.least
                 if task.leg.duration is not None:
                     break
-                task = task._replace(leg=replace(subject.leg, duration=leg_time(subject.drone, subject.leg)))
+                task = task._replace(leg=subject.leg.given(leg_time(subject.drone, subject.leg)))
                 continue
             against = _against(path, moved, subject)
             if against is None and (plain is None or _near(subject, refined, plain[0])):

@@ -46,6 +46,6 @@ def place_times(leg: MovingLeg) -> PlaceTimes:
 
 
 def unhurried(leg: MovingLeg) -> MovingLeg:
-    """Return a leg without times; it is flown as fast as the limits allow."""
+    """Return a leg without times; it is flown as fast as the limits allow, or its share of them."""
     marks = tuple(replace(mark, time=None) for mark in leg.marks)
-    return replace(leg, duration=None, pace=1.0, marks=marks)
+    return replace(leg, duration=None, pace=leg.most, marks=marks)

@@ -106,7 +106,7 @@ def _beside(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Ar
 
 
 def _pace(subject: ShotContext, margins: Margins) -> float:
-    return margins.limits * (1.0 if place_times(subject.leg) else subject.leg.pace)
+    return margins.limits * (subject.leg.most if place_times(subject.leg) else subject.leg.pace)
 
 
 def _guess(

@@ -39,7 +39,7 @@ def checked(subject: ShotContext, condition: AimCondition, camera: Piecewise) ->
 def hopeless(subject: ShotContext) -> bool:
     """Return whether a shot's convex path is far too slow for the times asked for."""
     leg = subject.leg
-    return place_times(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
+    return place_times(leg).lateness(*rough_times(subject.drone, leg, leg.most)) > HOPELESS_RATIO - 1.0
 
 
 def _late(subject: ShotContext, camera: Piecewise) -> float:
@@ -47,6 +47,6 @@ def _late(subject: ShotContext, camera: Piecewise) -> float:
     drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
     leg = with_camera(drone, subject.leg, camera, ahead)
     deadlines = place_times(leg)
-    if not deadlines or deadlines.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
+    if not deadlines or deadlines.lateness(*rough_times(drone, leg, leg.most)) < AMPLE_SHARE - 1.0:
         return 0.0
     return lateness(drone, leg)

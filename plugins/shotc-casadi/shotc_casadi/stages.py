@@ -41,7 +41,7 @@ def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) 
     pins = _pins(leg, placed)
     count = count or int(np.clip(STAGES_PER_INTERVAL * (len(pins) - 1), USUAL_STAGES, MOST_STAGES))
     deadlines = place_times(leg)
-    fine, t = rough_times(drone, leg, 1.0 if deadlines else leg.pace)
+    fine, t = rough_times(drone, leg, leg.most if deadlines else leg.pace)
     if deadlines:
         t = deadlines.kept(fine, t, leg.pace)
     knots = np.interp(pins, fine, t)

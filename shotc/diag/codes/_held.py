@@ -1,4 +1,4 @@
-"""V040 to V046, V063, V064: a plan file whose contents contradict its own trajectory or its mission."""
+"""V040 to V046, V063 to V065: a plan file whose contents contradict its own trajectory or its mission."""
 
 from __future__ import annotations
 
@@ -73,6 +73,18 @@ HELD: tuple[CodeInfo, ...] = (
             "`color`. The claim `pictures of a file` counts them. Between two pictures the lights fade evenly, and on the way up "
             "and down they are dark. Every effect of lights is there, in its order, with its blend, colours, times and place, and "
             "no other; which lights sparkle, and the pixels of an image, are left open. Plan the mission again.",
+        ),
+    ),
+    verified(
+        65,
+        "pace-not-kept",
+        (
+            "a shot is flown faster than its pace",
+            "`pace` is the share of every limit that a shot may use where the mission leaves its time free: of speed, climb "
+            "and descent, acceleration and jerk, the turns of body and gimbal, and the zoom rate. Jerk is lower still with a "
+            "high `smoothing`. Where several drones fly or a target moves, a refined shot keeps the time of its convex "
+            "path and may use 1.25 times its pace, never more than the limits. It is proved at every instant; the note "
+            "names the limit. Plan the mission again.",
         ),
     ),
     verified(

@@ -18,6 +18,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR
+from shotc.ir.pace import on_clock
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import CORNERS, ClockLeg, Deviation, DronePath, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
@@ -149,13 +150,6 @@ def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]
             shot = placed_at(ir.mission, placed[leg.shot], leg.start)
             diagnostics += misplaced(ir.mission, shot, leg.start)
     return diagnostics
-
-
-def on_clock(ir: KeyframeIR) -> bool:
-    """Return whether legs depend on mission time: a target moves, or several drones fly."""
-    moving = any(placed.shot.ideal is not None for placed in ir.shots)
-    moving = moving or any(target.track is not None for target in ir.mission.targets)
-    return moving or len({placed.shot.drone for placed in ir.shots}) > 1
 
 
 def _earlier(ir: KeyframeIR, order: Sequence[Drone], drone: Drone) -> list[Drone]:

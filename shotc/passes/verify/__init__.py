@@ -27,6 +27,7 @@ from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.looking import looking
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
+from shotc.passes.verify.paced import pace
 from shotc.passes.verify.pair import from_fleets, separation
 from shotc.passes.verify.pans import pans
 from shotc.passes.verify.promises import unjudged
@@ -86,6 +87,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *transits(flight),
             *ahead(flight),
             *shots(flight, ir),
+            *pace(flight, ir),
             *course(flight, ir),
             *looking(flight, ir),
         ]

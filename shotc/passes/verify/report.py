@@ -21,6 +21,8 @@ from shotc.passes.verify.fleets.pyro_advice import pyro_advice
 from shotc.passes.verify.hidden import hidden_by, nowhere_seen
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
+from shotc.passes.verify.paced import CONSTRAINT as PACE
+from shotc.passes.verify.paced import pace_note
 from shotc.passes.verify.passing import reported_passes
 from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promise, promise_help, target_of
 from shotc.passes.verify.sighting import sighted
@@ -102,6 +104,7 @@ RULES = {
     "direction off its aim": Rule("V045", help=REPLAN),
     "body off its camera": Rule("V045", help=REPLAN),
     "shots out of order": Rule("V015", help=REPLAN),
+    PACE: Rule("V065", help=REPLAN),
     "drift from the vertical": Rule("V017", help=REPLAN),
     "depth below home": Rule("V017", help=REPLAN),
     "frames without their target": Rule("V024", help=REPLAN),
@@ -209,7 +212,7 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
     else:
         message = f"{_who(claim)}: {state_of(claim, rule.code)}"
         causes = [wind_note(mission, claim), energy_note(claim, certificate)]
-        notes += filter(None, [*causes, *nearest_part(mission, claim)])
+        notes += filter(None, [*causes, *nearest_part(mission, claim), *pace_note(ir, claim)])
         help_ = pyro_advice(ir, claim) if rule.code == "V059" else advice(mission, claim, rule, phase)
     limit = f"{side_of(claim)} {distinct_measures(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))

@@ -118,15 +118,17 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
 def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
     """Return a new leg with the duration of an old one.
 
-    Raises NoTransit if the new leg takes longer at full limits.
+    Raises NoTransit if the new leg takes longer within the share of the limits that it may use.
     """
     duration = leg_time(drone, old)
-    leg = replace(new, duration=duration if old.duration is None else old.duration)
+    leg = new.given(duration) if old.duration is None else replace(new, duration=old.duration, most=old.most)
     if lateness(drone, leg) > 0.0:
         whose = "the way" if old.shot is None else "its convex path"
-        least = leg_time(drone, replace(new, duration=None, pace=1.0))
-        more = f", for it takes {least:.3f} s at full limits" if least > duration else ""
-        raise NoTransit(f"the {duration:.3f} s of {whose}{more}", least if old.shot is not None else None)
+        least = leg_time(drone, replace(new, duration=None, pace=leg.most))
+        limits = "full limits" if leg.most == 1.0 else f"{leg.most:.4g} of the limits"
+        more = f", for it takes {least:.3f} s at {limits}" if least > duration else ""
+        needs = leg_time(drone, replace(new, duration=None))
+        raise NoTransit(f"the {duration:.3f} s of {whose}{more}", needs if old.shot is not None else None)
     return leg
 
 

@@ -46,8 +46,10 @@ class PlannedShot:
 
     def lasting(self, seconds: float | None) -> PlannedShot:
         """Return the shot with a duration, seconds, where the mission leaves its duration free."""
-        duration = self.shot.shot.timing.duration
-        return replace(self, leg=replace(self.leg, duration=seconds if duration is None else duration))
+        duration, leg = self.shot.shot.timing.duration, self.leg
+        if duration is None and seconds is not None and isinstance(leg, MovingLeg):
+            return replace(self, leg=leg.given(seconds))
+        return replace(self, leg=replace(leg, duration=seconds if duration is None else duration))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -190,7 +190,8 @@ def _attempt(timed: LegDeadlines, deadlines: list[_Deadline]) -> Timed | _Missed
     moves: list[TimedMove] = []
     for m, move in enumerate(timed.fast):
         own = [p for p in parts if p.move == m]
-        slowed = _move_of(timed, move, own)
+        after = all(p.deadline == len(deadlines) for p in own)
+        slowed = timed.paced[m] if after else _move_of(timed, move, own)
         if slowed is None:
             known = [p for p in own if p.deadline < len(deadlines)]
             return _MissedDeadline(min(known, key=lambda p: p.duration / p.least).deadline)

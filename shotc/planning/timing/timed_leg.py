@@ -39,7 +39,7 @@ class LegTiming(NamedTuple):
 def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
     """Return the timing of one leg by its duration, keyframe times, pace and smoothing.
 
-    Deadlines have priority over smoothing.
+    ceiling : the limits of the drone; deadlines have priority over smoothing
     """
     plan = plan_of(leg)
     if isinstance(leg, HoldLeg):
@@ -47,6 +47,8 @@ def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
     if not has_times(leg):
         moves = fastest_moves(leg, plan, _paced(leg, ceiling) if leg.phase == "shot" else ceiling)
         return LegTiming(assemble(leg, plan, moves, leg.duration), moves, None)
+    if leg.most < 1.0:
+        return time_leg(replace(leg, most=1.0), ceiling.scaled(leg.most))
     smooth = ceiling.smoothed(leg.smoother)
     if smooth != ceiling and can_be_timed(leg, smooth):
         return time_leg(replace(leg, smoother=1.0), smooth)
@@ -89,8 +91,13 @@ def leg_time(drone: Drone, leg: PathLeg) -> float:
 
 
 def lateness(drone: Drone, leg: PathLeg) -> float:
-    """Return the relative lateness of a leg's fastest flight against its deadlines, at least 0."""
+    """Return the relative lateness of a leg's fastest flight against its deadlines, at least 0.
+
+    In a duration that planning gave, the leg is as smooth as the mission asks for.
+    """
     ceiling, plan = ceiling_of(drone), plan_of(leg)
+    if isinstance(leg, MovingLeg) and leg.most < 1.0:
+        ceiling = ceiling.scaled(leg.most).smoothed(leg.smoother)
     fast = fastest_moves(leg, plan, ceiling)
     return LegDeadlines(leg, plan, fast, fast, ceiling).lateness()
 

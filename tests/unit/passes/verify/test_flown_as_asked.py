@@ -73,6 +73,7 @@ OTHERS: dict[str, tuple[str, str, str]] = {
     "another lens": ("hfov: 60 deg", "hfov: 55 deg", "V045"),
     "the other side": ("side: left", "side: right", "V044"),
     "nearer": ("distance: 8", "distance: 5", "V044"),
+    "brisker": ("rules: {", "rules: {pace: brisk, ", "V065"),
 }
 QUICK = ("the other way round", "a hold dropped", "another direction", "the other side")
 
