@@ -10,13 +10,18 @@ from contextlib import suppress
 from hashlib import sha256
 from typing import Any
 
+import numpy as np
 import pytest
 
 from shotc import api
+from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.planfile.codec import encode
+from shotc.planfile.read import read_plan
 from tests.support.kinds_plan import MISSION, kinds_plan
 from tests.support.moved_plans import excursion
 from tests.support.resealed_plans import Document, resealed
+from tests.support.slowed_plans import inserted, stretched, waiting
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("kinds-plan")]
 
@@ -153,9 +158,38 @@ def of_the_picture(chance: random.Random, document: Document) -> None:
         )
 
 
+def of_free_time(chance: random.Random, document: Document) -> None:
+    """Fly a shot slower or faster than its pace, wait where the drone rests, or fly away and back."""
+    read = read_plan(json.dumps(document).encode(), "plan.json")
+    assert read.trajectory is not None
+    track = read.trajectory.drones[0]
+    spans = {p.shot: (p.start, p.end) for p in track.phases if p.shot in ("round", "rise")}
+    shot = chance.choice(sorted(spans.values()))
+    rest = chance.choice([0.0, *(end for span in spans.values() for end in span)])
+    kind = chance.randrange(4)
+    if kind == 0:
+        track = stretched(track, shot, chance.uniform(2.0, 9.0))
+    elif kind == 1:
+        track = stretched(track, shot, chance.uniform(0.4, 0.78))
+    elif kind == 2:
+        track = waiting(track, rest, chance.uniform(6.0, 1000.0))
+    else:
+        at = int(np.argmin(np.abs(track.curve.breaks - rest)))
+        way = chance.uniform(300.0, 2000.0)
+        track = inserted(track, at, away_and_back(track.curve(rest), rest, way, chance.uniform(0.0, 7.0)))
+    document["drones"][0] = encode(track)
+
+
+def away_and_back(pose: Array, at: float, way: float, course: float) -> Piecewise:
+    """Return a flight to a place and back, as fast as an x500 is on it."""
+    far = pose + way * np.array([np.cos(course), np.sin(course), *np.zeros(5)])
+    zero, lasts = np.zeros((3, 7)), 1.875 * way / 8.0
+    return quintic_hermite(at + lasts * np.arange(3.0), np.stack([pose, far, pose]), zero, zero)
+
+
 EDITS = (
     *(of_a_value, of_a_value, of_a_value, of_the_text, of_the_flight, of_a_time),
-    *(of_the_motion, of_the_picture),
+    *(of_the_motion, of_the_picture, of_free_time),
 )
 
 

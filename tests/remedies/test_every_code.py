@@ -65,7 +65,7 @@ NO_EDIT = {
     **dict.fromkeys(("X001", "Q008"), "it is our fault, to be reported"),
     **dict.fromkeys(
         ("V011", "V012", "V014", "V015", "V016", "V017", "V018", "V024", "V040", "V041", "V042", "V043",
-            "V044", "V045", "V046", "V064", "V065", "E001", "E002", "E003"),
+            "V044", "V045", "V046", "V064", "V065", "V066", "E001", "E002", "E003"),
         "a plan was edited or broken; it says to plan again",
     ),
     **dict.fromkeys(("I004", "I005"), "the import says what it took instead, in the mission that it writes"),

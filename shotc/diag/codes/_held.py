@@ -1,4 +1,4 @@
-"""V040 to V046, V063 to V065: a plan file whose contents contradict its own trajectory or its mission."""
+"""V040 to V046, V063 to V066: a plan file whose contents contradict its own trajectory or its mission."""
 
 from __future__ import annotations
 
@@ -85,6 +85,20 @@ HELD: tuple[CodeInfo, ...] = (
             "high `smoothing`. Where several drones fly or a target moves, a refined shot keeps the time of its convex "
             "path and may use 1.25 times its pace, never more than the limits. It is proved at every instant; the note "
             "names the limit. Plan the mission again.",
+        ),
+    ),
+    verified(
+        66,
+        "time-lost",
+        (
+            "a flight takes longer than the mission needs",
+            "Where the mission leaves time free, a flight is about as fast as it can be. Verification estimates the least time of "
+            "each way from its shape and the limits. Between two keyframes a shot takes at most 1.5 times that and a second; a "
+            "shot with a duration is compared with its share of it, so a hold lasts as long as it is asked for. Between shots it "
+            "is 3 times, 5 s and the turns, and the way is at most twice the straight line, 100 m, and 4 times the size of what "
+            "stands. A drone waits for a `start`, for a shot of `after`, or while somebody is near where it would fly, and at "
+            "most 1.5 times that and 3 s. A shot of what moves begins at most 90 s after its drone can be there. Plan the "
+            "mission again.",
         ),
     ),
     verified(

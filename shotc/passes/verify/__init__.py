@@ -26,6 +26,7 @@ from shotc.passes.verify.fleets import fleet_claims, fleet_structure
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.looking import looking
 from shotc.passes.verify.loss import losses
+from shotc.passes.verify.lost_time import lost_time
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.paced import pace
 from shotc.passes.verify.pair import from_fleets, separation
@@ -38,6 +39,7 @@ from shotc.passes.verify.shots import shots
 from shotc.passes.verify.sight import sights
 from shotc.passes.verify.space import space
 from shotc.passes.verify.transits import transits
+from shotc.passes.verify.waits import waits
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +90,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *ahead(flight),
             *shots(flight, ir),
             *pace(flight, ir),
+            *lost_time(flight, ir),
+            *waits(flight, ir),
             *course(flight, ir),
             *looking(flight, ir),
         ]

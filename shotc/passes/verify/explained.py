@@ -123,7 +123,7 @@ def _zones(flight: JudgedFlight, course: ExpectedPlaces) -> Iterator[tuple[str, 
         if zone.keep == "in":
             yield f"zone {zone.name}", float(apart.max()) + body
         elif apart.min() < body:
-            yield f"zone {zone.name}", _size(zone.solid) + 2.0 * body
+            yield f"zone {zone.name}", size_of(zone.solid) + 2.0 * body
     yield "ground", mission.rules.ground_clearance + body - float(course.places[:, 2].min())
 
 
@@ -174,7 +174,7 @@ def _drones(flight: JudgedFlight, course: ExpectedPlaces) -> Iterator[tuple[str,
             yield f"drone {other.drone}", 2.0 * near
 
 
-def _size(solid: Solid) -> float:
+def size_of(solid: Solid) -> float:
     """Return the larger of a solid's width and its height, metres."""
     if isinstance(solid, Cylinder):
         return max(2.0 * solid.radius, solid.top - solid.bottom)

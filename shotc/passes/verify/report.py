@@ -19,6 +19,7 @@ from shotc.passes.verify.energy import energy_note
 from shotc.passes.verify.fleets.burning import PYRO
 from shotc.passes.verify.fleets.pyro_advice import pyro_advice
 from shotc.passes.verify.hidden import hidden_by, nowhere_seen
+from shotc.passes.verify.lost_time import BETWEEN, BETWEEN_SHOTS, WAY
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
 from shotc.passes.verify.paced import CONSTRAINT as PACE
@@ -28,6 +29,7 @@ from shotc.passes.verify.promises import OUTLINES, PROMISES, bends, broken_promi
 from shotc.passes.verify.sighting import sighted
 from shotc.passes.verify.transits import ENDING as PASSED
 from shotc.passes.verify.visible import AT_FIRST, AT_LAST, IN_SIGHT, VISIBLE
+from shotc.passes.verify.waits import LATE, UNJUDGED, WAITED
 from shotc.rounding import plain, up
 
 RULES = {
@@ -105,6 +107,7 @@ RULES = {
     "body off its camera": Rule("V045", help=REPLAN),
     "shots out of order": Rule("V015", help=REPLAN),
     PACE: Rule("V065", help=REPLAN),
+    **dict.fromkeys((BETWEEN, BETWEEN_SHOTS, WAY, WAITED, LATE, UNJUDGED), Rule("V066", help=REPLAN)),
     "drift from the vertical": Rule("V017", help=REPLAN),
     "depth below home": Rule("V017", help=REPLAN),
     "frames without their target": Rule("V024", help=REPLAN),
@@ -137,6 +140,9 @@ ENDING = {
     AT_FIRST: Rule("V029"),
     AT_LAST: Rule("V029"),
 }
+
+ESTIMATED = frozenset((BETWEEN, BETWEEN_SHOTS, WAY, WAITED, LATE))
+"""Constraints that are compared with an estimate, not at the output rate."""
 
 UNKNOWN = {
     "V024": "is unknown: there is none",
@@ -321,7 +327,7 @@ def _notes(claim: Claim, phase: Phase | None) -> Iterator[str]:
         yield where
     if claim.method == "bounded":
         yield "proved over continuous time"
-    elif claim.method == "sampled":
+    elif claim.method == "sampled" and claim.constraint not in ESTIMATED:
         yield "found at the output rate"
 
 

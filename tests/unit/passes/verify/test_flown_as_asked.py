@@ -74,6 +74,18 @@ OTHERS: dict[str, tuple[str, str, str]] = {
     "the other side": ("side: left", "side: right", "V044"),
     "nearer": ("distance: 8", "distance: 5", "V044"),
     "brisker": ("rules: {", "rules: {pace: brisk, ", "V065"),
+    "after waiting for 60 s": (
+        "start_azimuth: 180 deg}",
+        "start_azimuth: 180 deg, timing: {start: 80}}",
+        "V066",
+    ),
+    "a hold of 62 s": (", hold: 2}", ", hold: 62}", "V066"),
+    "five times slower": ("altitude: [8, 24]}", "altitude: [8, 24], timing: {duration: 40}}", "V066"),
+    "a film that begins late": (
+        "timing: {duration: 8}",
+        "timing: {start: 200, duration: 8}",
+        "V066",
+    ),
 }
 QUICK = ("the other way round", "a hold dropped", "another direction", "the other side")
 

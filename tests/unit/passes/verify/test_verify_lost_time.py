@@ -1,0 +1,142 @@
+"""Time that the mission leaves free: how long a way takes, how long a drone waits, and for whom."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import quintic_hermite
+from shotc.geom.shapes import CylinderShape
+from shotc.geom.track import Track
+from shotc.ir.limits import Timing
+from shotc.ir.mission import Shot
+from shotc.ir.target import Target
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.passes.verify.least_time import least_times
+from shotc.passes.verify.lost_time import BETWEEN, BETWEEN_SHOTS, WAY
+from shotc.passes.verify.waits import WAITED
+from tests.support.records import replace
+from tests.support.slowed_plans import inserted, stretched, waiting
+from tests.support.tampered_plans import MISSION, PLAN
+from tests.support.timing_paths import CEILING, circle, line, s_curve_time
+from tests.support.verdicts import claim, codes, verdict_on
+
+pytestmark = pytest.mark.slow
+
+DRONE, TRACK = MISSION.drones[0], PLAN.drones[0]
+SHOT = (22.0, 52.0)
+POSE = (20.0, 0.0, 0.0, 0.0, 1.2)
+
+
+def free(track: object = TRACK, hold: float = 0.0, **changes: object) -> TrajectoryIR:
+    """The half orbit with a free time at a calm pace; track : flown; hold : of its first keyframe."""
+    shot: Shot = replace(MISSION.shots[0], **{"timing": Timing(), "pace": 0.6, **changes})
+    placed = PLAN.keyframes.shots[0]
+    first = replace(placed.keyframes[0], hold=hold)
+    placed = replace(placed, shot=shot, keyframes=(first, *placed.keyframes[1:]))
+    mission = replace(MISSION, shots=(shot,))
+    return replace(PLAN, drones=(track,), keyframes=replace(PLAN.keyframes, mission=mission, shots=(placed,)))
+
+
+@pytest.mark.parametrize("length", [0.5, 5.0, 30.0, 300.0])
+def test_the_least_time_of_a_line_is_that_of_its_limits(length: float) -> None:
+    path = line((0.0, 0.0, *POSE), (length, 0.0, *POSE))
+    flown = least_times(path, (0.0, length), DRONE, 1.0).least[-1]
+    exact = s_curve_time(length, CEILING.speed, CEILING.acceleration, CEILING.jerk)
+    assert flown == pytest.approx(exact, rel=0.1)
+    assert least_times(path, (0.0, length), DRONE, 0.5).least[-1] > 1.2 * flown
+
+
+def test_a_narrow_circle_is_as_slow_as_its_acceleration() -> None:
+    path = circle(2.0, 6.0)
+    flown = least_times(
+        path, (0.0, path.end), replace(DRONE, limits=DRONE.limits._replace(yaw_rate=99.0)), 1.0
+    )
+    assert flown.least[-1] > path.end / np.sqrt(CEILING.acceleration * 2.0)
+
+
+def test_neither_a_slower_law_nor_rests_change_the_least_time() -> None:
+    calm = stretched(TRACK, SHOT, 8.0)
+    held = waiting(TRACK, SHOT[0], 62.0)
+    first = least_times(TRACK.curve, SHOT, DRONE, 1.0).least[-1]
+    for track, end in ((calm, 22.0 + 8.0 * 30.0), (held, 52.0 + 62.0)):
+        assert least_times(track.curve, (22.0, end), DRONE, 1.0).least[-1] == pytest.approx(first, rel=2e-3)
+
+
+@pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (2.0, False), (8.0, False)])
+def test_a_free_shot_is_about_as_fast_as_its_pace(factor: float, holds: bool) -> None:
+    ir = free(stretched(TRACK, SHOT, factor))
+    assert claim(ir, BETWEEN).holds is holds
+    assert ("V066" in codes(ir)) is not holds
+
+
+@pytest.mark.parametrize(("hold", "holds"), [(0.0, False), (62.0, True)])
+@pytest.mark.parametrize("duration", [None, 92.0])
+def test_a_hold_lasts_as_long_as_it_is_asked_for(hold: float, holds: bool, duration: float | None) -> None:
+    ir = free(waiting(TRACK, SHOT[0], 62.0), hold=hold, timing=Timing(duration=duration))
+    assert claim(ir, BETWEEN).holds is holds
+
+
+def test_a_shot_with_a_duration_may_be_slow() -> None:
+    assert claim(free(stretched(TRACK, SHOT, 8.0), timing=Timing(duration=240.0)), BETWEEN).holds
+
+
+def test_a_slow_transit_is_refused() -> None:
+    assert claim(free(), BETWEEN_SHOTS).holds
+    slow = free(stretched(TRACK, (0.0, 22.0), 4.0))
+    assert "V066" in codes(slow)
+    assert not claim(slow, BETWEEN_SHOTS).holds
+
+
+def test_a_way_is_no_longer_than_what_stands_explains() -> None:
+    """Two kilometres away and back, as fast as the drone flies."""
+    k = int(np.argmin(np.abs(TRACK.curve.breaks - 8.0)))
+    here = TRACK.curve(8.0)
+    far = here - 2000.0 * np.eye(7)[1]
+    zero = np.zeros((3, 7))
+    loop = quintic_hermite(np.array([8.0, 490.0, 972.0]), np.stack([here, far, here]), zero, zero)
+    ir = free(inserted(TRACK, k, loop))
+    assert claim(ir, BETWEEN_SHOTS).holds
+    assert not claim(ir, WAY).holds
+    assert claim(ir, WAY).worst == pytest.approx(4030.4, abs=1.0)
+    assert "V066" in codes(ir)
+
+
+@pytest.mark.parametrize("at", [0.0, 8.0, 82.0])
+def test_nobody_waits_without_a_reason(at: float) -> None:
+    ir = free(waiting(TRACK, at, 1000.0))
+    found = next(d for d in verdict_on(ir).diagnostics if d.code == "V066")
+    assert "wait without a reason is 1000 s, at most 3 s" in found.message
+    assert claim(free(waiting(TRACK, at, 2.9)), WAITED).holds
+
+
+def test_a_start_of_the_mission_is_a_reason() -> None:
+    late = waiting(TRACK, 0.0, 1000.0)
+    assert claim(free(late, timing=Timing(start=1022.0)), WAITED).worst == 0.0
+    assert claim(free(late, timing=Timing(after="other")), WAITED).worst > 900.0
+
+
+def passed(wait: float, until: float) -> TrajectoryIR:
+    """A flight that waits on its pad beside a walker, who leaves at ``until`` seconds at 5 m/s."""
+    walker = Target(
+        "walker",
+        (3.0, -60.0, 0.9),
+        CylinderShape(0.4, 1.8),
+        ("targets", "walker"),
+        Track((0.0, until, until + 100.0), ((3.0, -60.0, 0.9), (3.0, -60.0, 0.9), (3.0, -560.0, 0.9))),
+    )
+    ir = free(waiting(TRACK, 0.0, wait))
+    return replace(
+        ir,
+        keyframes=replace(
+            ir.keyframes, mission=replace(ir.keyframes.mission, targets=(*MISSION.targets, walker))
+        ),
+    )
+
+
+@pytest.mark.parametrize(
+    ("wait", "until", "holds"),
+    [(20.0, 20.0, True), (60.0, 60.0, True), (60.0, 20.0, False), (20.0, 1.0, False)],
+)
+def test_a_passer_by_is_a_reason_while_he_is_near(wait: float, until: float, holds: bool) -> None:
+    assert claim(passed(wait, until), WAITED).holds is holds
