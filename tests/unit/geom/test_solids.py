@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.geom.solids import Cylinder, Prism, convex_parts, segments_cross, signed_area
+from shotc.geom.solids import Cylinder, Prism, convex_parts, segments_cross, signed_area, signed_distance
 from shotc.geom.vec import Vec3
 
 LONG = ((0.0, 0.0), (4.0, 0.0))
@@ -68,3 +68,36 @@ def test_the_nearest_point_of_a_prism_is_on_the_side_that_is_nearest() -> None:
     assert wedge.closest((2.0, -5.0, 2.0)) == pytest.approx((2.0, 0.0, 2.0))
     assert wedge.closest((7.0, 7.0, 0.0)) == pytest.approx((3.0, 4.0, 1.0))
     assert wedge.closest((-1.0, 9.0, 2.0)) == pytest.approx((0.0, 8.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("p", "metres"),
+    [
+        ((1.0, 0.0, 3.0), -1.0),  # inside, nearest to the bottom
+        ((1.0, 0.0, 4.5), -0.5),  # inside, nearest to the top
+        ((5.5, 0.0, 3.5), -0.5),  # inside, nearest to the side
+        ((9.0, 0.0, 3.5), 3.0),
+        ((1.0, 0.0, 7.5), 2.5),
+        ((1.0, 0.0, -2.0), 4.0),
+        ((9.0, 0.0, 9.0), 5.0),  # beside and above
+        ((1.0, 9.0, -2.0), 32**0.5),  # beside and below
+    ],
+)
+def test_the_signed_distance_from_a_cylinder(p: Vec3, metres: float) -> None:
+    assert signed_distance(Cylinder((1.0, 0.0), 5.0, 2.0, 5.0), p) == pytest.approx(metres)
+
+
+@pytest.mark.parametrize(
+    ("p", "metres"),
+    [
+        ((1.0, 0.75, 2.0), -0.75),
+        ((1.0, 1.0, 2.9), -0.1),
+        ((3.0, -2.0, 2.0), 2.0),
+        ((7.0, 7.0, 2.0), 5.0),
+        ((1.0, 1.0, 0.0), 1.0),
+        ((7.0, 7.0, 15.0), 13.0),
+    ],
+)
+def test_the_signed_distance_from_a_prism(p: Vec3, metres: float) -> None:
+    wedge = Prism(((0.0, 0.0), (6.0, 0.0), (0.0, 8.0)), 1.0, 3.0)
+    assert signed_distance(wedge, p) == pytest.approx(metres)

@@ -38,13 +38,13 @@ def test_a_thinned_cloud_stands_for_every_point(most, monkeypatch):
 
 
 def test_a_cell_is_represented_by_the_middle_of_its_points() -> None:
-    points = np.array([[1.0, 2.0, 3.0], [1.5, 2.5, 4.0], [9.0, 9.0, 9.0]])
+    points = np.array([[1.5, 2.0, 3.0], [2.5, 2.5, 4.0], [9.0, 9.0, 9.0]])
     found = splats(points, 2.0, 10)
-    assert found.middle.tolist() == [[1.25, 2.25, 3.5], [9.0, 9.0, 9.0]]
+    assert found.middle.tolist() == [[2.0, 2.25, 3.5], [9.0, 9.0, 9.0]]
     assert (found.first.tolist(), found.size) == ([0, 2], 2.0)
 
 
 def test_cells_differ_in_each_coordinate() -> None:
-    corners = np.stack(np.meshgrid([0.0, 5.0], [0.0, 7.0], [0.0, 9.0]), axis=-1).reshape(-1, 3)
+    corners = np.stack(np.meshgrid([0.0, 2.5], [0.0, 3.0], [0.0, 2.25]), axis=-1).reshape(-1, 3)
     found = splats(np.concatenate([corners, corners + 0.5]), 2.0, 10)
     assert sorted(found.middle.tolist()) == sorted((corners + 0.25).tolist())
