@@ -128,12 +128,7 @@ def plan(
         shotc plan missions/ --jobs 8
     """
     emitters = listed(emit)
-    for name in emitters or ():
-        known("--emit", name, plugins.names("emitters"))
-    known("--refiner", refiner, plugins.names("refiners"))
-    known("--headings", headings, list(METHODS))
-    known("--stop-after", stop_after, list(PASS_NAMES))
-    known("--dump-ir", dump_ir, list(PASS_NAMES))
+    _check_names(emitters, {"--stop-after": stop_after, "--dump-ir": dump_ir}, refiner, headings)
     if len(specs) > 1 or is_folder(specs[0]):
         single = {"--stop-after": stop_after, "--dump-ir": dump_ir, "--time-passes": time_passes}
         one_mission_only(single)
@@ -161,6 +156,18 @@ def plan(
     if time_passes:
         _print_times(compilation)
     raise typer.Exit(code)
+
+
+def _check_names(
+    emitters: list[str] | None, passes: dict[str, str | None], refiner: str | None, headings: str
+) -> None:
+    """Raise a usage error for an unknown emitter, refiner, method of headings or pass; passes : by option."""
+    for name in emitters or ():
+        known("--emit", name, plugins.names("emitters"))
+    known("--refiner", refiner, plugins.names("refiners"))
+    known("--headings", headings, list(METHODS))
+    for option, stage in passes.items():
+        known(option, stage, list(PASS_NAMES))
 
 
 def _finish(

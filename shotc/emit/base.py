@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 from shotc.diag.model import Diagnostic
 
 if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.mission import MissionIR
     from shotc.ir.trajectory import VerifiedIR
 
 
@@ -72,3 +73,17 @@ class Prepares(Protocol):
         It may raise ModuleNotFoundError, which is treated as one from ``emit``.
         """
         ...
+
+
+def without_origin(mission: MissionIR, emitter: str, code: str, what: str, why: str) -> Diagnostic:
+    """Return the warning that files need the origin of a mission, which has none.
+
+    what : the files that are skipped, with their verb; why : they need it
+    """
+    return Diagnostic(
+        code,
+        f"{what} skipped: the mission has no world.origin",
+        (mission.origins.key(("world",)),),
+        (why,),
+        f"write `origin: {{lat: ..., lon: ..., alt: ...}}` under `world`, or take `{emitter}` out of `emit`",
+    )

@@ -14,8 +14,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, register_namespac
 
 import numpy as np
 
-from shotc.diag.model import Diagnostic
-from shotc.emit.base import Artifact, Emission
+from shotc.emit.base import Artifact, Emission, without_origin
 from shotc.emit.cameras import without_fleets
 from shotc.geom.earth import of_world
 from shotc.ir.mission import GeoOrigin, MissionIR
@@ -46,7 +45,8 @@ class KmlTour:
         """Return ``<drone>.kml`` for each drone, or a warning if the mission has no origin."""
         mission = plan.trajectory.keyframes.mission
         if mission.origin is None:
-            return Emission((), (_no_origin(mission),))
+            why = "cameras of a tour are latitudes, longitudes and altitudes"
+            return Emission((), (without_origin(mission, "kml", "E101", "the KML tours are", why),))
         tours, notes = [], [*without_fleets(plan, "kml")]
         for drone in plan.trajectory.drones:
             tours.append(Artifact(f"{drone.drone}.kml", document(mission, mission.origin, drone)))
@@ -68,16 +68,6 @@ def document(mission: MissionIR, origin: GeoOrigin, drone: DroneTrajectory) -> b
             _tour(folder, origin, drone, phase, f"tour{number}")
     indent(root)
     return bytes(tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
-
-
-def _no_origin(mission: MissionIR) -> Diagnostic:
-    return Diagnostic(
-        "E101",
-        "the KML tours are skipped: the mission has no world.origin",
-        (mission.origins.key(("world",)),),
-        ("cameras of a tour are latitudes, longitudes and altitudes",),
-        "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`, or take `kml` out of `emit`",
-    )
 
 
 def _lens(drone: DroneTrajectory) -> list[str]:

@@ -11,7 +11,7 @@ from functools import lru_cache
 from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
 from typing import NamedTuple
 
-from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.camera import View, aim_at, frustum_margins, view
 from shotc.geom.line_of_sight import gap_beside
 from shotc.geom.pose_search import Pose, PoseCost, Residuals, dot, least_cost_pose
 from shotc.geom.shapes import TargetShape
@@ -275,37 +275,49 @@ def _residuals(
     previous, reach = faint
     residuals: Residuals = []
     sized = any(s.size is not None for s in subjects)
-    unplaced: list[Vec2] = []
     for s in subjects:
-        offset = minus(s.centre, eye)
-        if s.shape.nearest_depth(camera, offset) <= 1e-3:
+        its = _of_subject(camera, eye, s, bounds.near, sized=sized)
+        if its is None:
             return None
-        u, v, _ = camera.project(offset)
-        left, right, low, high = s.shape.bounds(camera, offset)
-        if not high > low:
-            return None
-        if s.uv is None:
-            unplaced.append((u, v))
-        else:
-            residuals += [u - s.uv[0], v - s.uv[1]]
-        if s.size is not None:
-            residuals.append(log(0.5 * (high - low) / s.size))
-        elif not sized:
-            residuals.append(FAINT_WEIGHT * log(0.5 * (high - low) / WHOLE_SIZE))
-        if s.whole:
-            residuals += [HARD_WEIGHT * max(0.0, edge - EDGE_SHARE) for edge in (-left, right, -low, high)]
-        residuals += _off_view(s, offset)
-        if s.elevation is None:
-            residuals.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
-        residuals.append(HARD_WEIGHT * max(0.0, bounds.near - s.shape.gap(offset)))
-        residuals += [HARD_WEIGHT * _hidden(eye, s, occluder) for occluder in s.occluders]
-    residuals += _off_middle(unplaced)
+        residuals += its
+    offsets = [minus(s.centre, eye) for s in subjects if s.uv is None]
+    residuals += _off_middle([camera.project(offset)[:2] for offset in offsets])
     residuals += [HARD_WEIGHT * solid.lack(eye) for solid in bounds.solids]
     residuals += _off_pose(pose, bounds.drawn, subjects)
     if previous is not None:
         residuals += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, previous.kept, strict=True)]
         residuals.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, previous.eye)) - previous.largest_step))
     return residuals
+
+
+def _of_subject(
+    camera: View, eye: Vec3, subject: RequiredView, near: float, *, sized: bool
+) -> Residuals | None:
+    """Return the residuals of one subject; None if it extends behind the camera.
+
+    near : its clearance, metres; sized : whether any subject has a required size
+    """
+    offset = minus(subject.centre, eye)
+    if subject.shape.nearest_depth(camera, offset) <= 1e-3:
+        return None
+    left, right, low, high = subject.shape.bounds(camera, offset)
+    if not high > low:
+        return None
+    residuals: Residuals = []
+    if subject.uv is not None:
+        u, v, _ = camera.project(offset)
+        residuals += [u - subject.uv[0], v - subject.uv[1]]
+    if subject.size is not None:
+        residuals.append(log(0.5 * (high - low) / subject.size))
+    elif not sized:
+        residuals.append(FAINT_WEIGHT * log(0.5 * (high - low) / WHOLE_SIZE))
+    if subject.whole:
+        residuals += [HARD_WEIGHT * max(0.0, edge - EDGE_SHARE) for edge in (-left, right, -low, high)]
+    residuals += _off_view(subject, offset)
+    if subject.elevation is None:
+        residuals.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
+    residuals.append(HARD_WEIGHT * max(0.0, near - subject.shape.gap(offset)))
+    return residuals + [HARD_WEIGHT * _hidden(eye, subject, occluder) for occluder in subject.occluders]
 
 
 def _off_middle(places: Sequence[Vec2]) -> Residuals:

@@ -42,7 +42,7 @@ from shotc.emit.waypoints.compare import Error, compare, nearest_miss
 from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes
 from shotc.emit.waypoints.reflown import ReflownSamples
-from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
+from shotc.emit.waypoints.report import PROMISED, fleets_left_out, flown_here, no_origin, zoom_not_carried
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import SAMPLE_STEP_S, SampledFlight, track_of
 from shotc.geom.bernstein import Array
@@ -64,7 +64,7 @@ class MavlinkEmitter:
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the mission files, with warnings and notes on the error that the format adds."""
         mission = plan.trajectory.keyframes.mission
-        fleets = fleetless(mission, plan.trajectory.fleets, self.name)
+        fleets = fleets_left_out(mission, plan.trajectory.fleets, self.name)
         if fleets and not plan.trajectory.drones:
             return Emission((), fleets)
         flown, notes, others = flown_here(mission, plan.trajectory.drones, self.name, tuple(DIALECTS))
@@ -134,7 +134,7 @@ class _Job:
 
     def emit(self) -> tuple[Emission, Array | None]:
         """Return the files and the positions (n, 3) of their re-flight; None if no file is written."""
-        not_carried = [] if self.style.zooms else lens(self.mission, self.flight)
+        not_carried = [] if self.style.zooms else zoom_not_carried(self.mission, self.flight)
         faults = [d for d in not_carried if d.code == PROMISED]
         if faults:
             return Emission((), tuple(faults)), None

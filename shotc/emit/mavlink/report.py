@@ -9,7 +9,7 @@ from shotc.emit.mavlink.fence import OmittedZone
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import WaypointStep
 from shotc.emit.waypoints.compare import Error
-from shotc.emit.waypoints.report import by_hand, zoomed_to
+from shotc.emit.waypoints.report import set_by_hand, zoomed_to
 from shotc.emit.waypoints.timing import WaysTooNear
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -119,7 +119,7 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
 
 def sidenotes(drone: Drone, intended: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
     """Return notes for the pilot on how this autopilot flies the file."""
-    return [*_flown(drone, intended, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
+    return [*_flown(drone, intended, flown), *set_by_hand(drone, focuses=drone.autopilot == "px4")]
 
 
 def _flown(drone: Drone, intended: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:

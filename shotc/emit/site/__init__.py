@@ -13,8 +13,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from shotc.diag.model import Diagnostic
-from shotc.emit.base import Artifact, Emission
+from shotc.emit.base import Artifact, Emission, without_origin
 from shotc.emit.kml import KML, text_element
 from shotc.emit.site.volumes import AreaOutline, Volumes, volumes
 from shotc.emit.zip_parts import archive_parts
@@ -53,7 +52,8 @@ class SiteEmitter:
         """Return the file, or a warning if the mission has no origin."""
         mission = plan.trajectory.keyframes.mission
         if mission.origin is None:
-            return Emission((), (_no_origin(mission),))
+            why = "what stands on a map has latitudes and longitudes"
+            return Emission((), (without_origin(mission, "site", "E130", "the map of the site is", why),))
         data = b"".join(archive_parts([("doc.kml", document(plan, mission.origin))]))
         return Emission((Artifact(f"{file_name(mission.name)}-site.kmz", data),))
 
@@ -78,16 +78,6 @@ def document(plan: VerifiedIR, origin: GeoOrigin) -> bytes:
             _point(mark, origin, np.array([display.viewpoint]))
     indent(root)
     return bytes(tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
-
-
-def _no_origin(mission: MissionIR) -> Diagnostic:
-    return Diagnostic(
-        "E130",
-        "the map of the site is skipped: the mission has no world.origin",
-        (mission.origins.key(("world",)),),
-        ("what stands on a map has latitudes and longitudes",),
-        "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`, or take `site` out of `emit`",
-    )
 
 
 def _style(folder: Element, name: str, colors: tuple[str, str]) -> None:

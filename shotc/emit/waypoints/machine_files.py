@@ -85,7 +85,7 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
     """Return the files of all drones that fly a format, with warnings and the error that it adds."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
-    diagnostics = list(report.fleetless(mission, ir.fleets, form.emitter))
+    diagnostics = list(report.fleets_left_out(mission, ir.fleets, form.emitter))
     flights, notes, others = report.flown_here(mission, ir.drones, form.emitter, form.machines)
     diagnostics += others
     if not flights:
@@ -96,7 +96,7 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
     written = [job.written() for job in jobs]
     courses = {f.drone: w.ways for f, w in zip(flights, written, strict=True)}
     meeting = kept_apart_by_time(mission, courses, [f for f in ir.drones if f.drone not in courses])
-    diagnostics += [report.meets(mission, each, courses) for each in meeting]
+    diagnostics += [report.apart_by_timing(mission, each, courses) for each in meeting]
     refused = {name for each in meeting for name in each.names}
     emissions = [job.emission(each) for job, each in zip(jobs, written, strict=True)]
     accepted = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]
@@ -186,7 +186,7 @@ class _Job:
 
     def emission(self, written: _WrittenFiles) -> Emission:
         """Return the files with notes and warnings; no files if they come too near to an obstacle."""
-        not_carried = report.lens(self.mission, self.flight) if self.chooser.lens is None else []
+        not_carried = report.zoom_not_carried(self.mission, self.flight) if self.chooser.lens is None else []
         faults = [*self._broken(written), *(d for d in not_carried if d.code == report.PROMISED)]
         if faults:
             return Emission((), tuple(faults))
@@ -194,17 +194,19 @@ class _Job:
         diagnostics = [
             *not_carried,
             *report.filmed_instead(self.mission, self.flight, self.form.emitter, written.photographed),
-            *report.beyond(self.mission, self.flight, self.track, error),
-            *report.drifts(self.mission, self.flight, self.track, error),
+            *report.off_plan(self.mission, self.flight, self.track, error),
+            *report.without_clock(self.mission, self.flight, self.track, error),
         ]
         files = [a.name for a in written.artifacts]
-        notes = report.notes(self.drone, files, len(written.route.position), error, self._models)
+        notes = report.notes_on_files(self.drone, files, len(written.route.position), error, self._models)
         safety = self.drone.safety
         if safety is not None and safety.rally:
             diagnostics.append(report.no_rally(self.mission, self.drone, self.form.emitter))
         highest = float(written.route.position[:, 2].max()) - self.drone.home[2]
         link = link_notes(self.drone, return_height(highest, safety), written=self.form.says_link_lost)
-        return Emission(written.artifacts, tuple(diagnostics), (*notes, *report.by_hand(self.drone), *link))
+        return Emission(
+            written.artifacts, tuple(diagnostics), (*notes, *report.set_by_hand(self.drone), *link)
+        )
 
     @property
     def _models(self) -> int:
@@ -246,7 +248,7 @@ class _Job:
             distances = np.linalg.norm(self.track.poses.position - place, axis=1)
             time = float(self.track.time[int(distances.argmin())])
             owner = owner_of(obstacle, place)
-            faults.append(report.broken(self.mission, self.drone, owner, depth, time))
+            faults.append(report.near_obstacle(self.mission, self.drone, owner, depth, time))
         return faults
 
     def _between(self, route: Route, obstacle: Obstacle, allowed: float) -> tuple[Array, float] | None:

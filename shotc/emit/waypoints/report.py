@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.emit.base import without_origin
 from shotc.emit.waypoints.choose import MEAN_HALF_FRAMES, WORST_HALF_FRAMES
 from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.lens import edge
@@ -41,16 +42,11 @@ FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
 
 def no_origin(mission: MissionIR, emitter: str) -> Diagnostic:
     """Return the warning that the mission has no origin, so that there are no files."""
-    return Diagnostic(
-        "E101",
-        f"the {FILES[emitter]} files are skipped: the mission has no world.origin",
-        (mission.origins.key(("world",)),),
-        ("waypoints are latitudes and longitudes",),
-        f"write `origin: {{lat: ..., lon: ..., alt: ...}}` under `world`, or take `{emitter}` out of `emit`",
-    )
+    what, why = f"the {FILES[emitter]} files are", "waypoints are latitudes and longitudes"
+    return without_origin(mission, emitter, "E101", what, why)
 
 
-def fleetless(
+def fleets_left_out(
     mission: MissionIR, fleets: tuple[FleetTrajectory, ...], emitter: str
 ) -> tuple[Diagnostic, ...]:
     """Return one warning that fleets get no mission files; none without fleets or if they get show files."""
@@ -118,7 +114,7 @@ def without_waypoints(mission: MissionIR, flights: tuple[DroneTrajectory, ...]) 
     )
 
 
-def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
+def zoom_not_carried(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     """Return warnings on shots whose field of view a file without zoom does not carry.
 
     The warning becomes an error, and no file is written, if the shot promises its framing and the picture's
@@ -161,7 +157,7 @@ def _promises(shot: Shot) -> bool:
     return any(each is not None for each in (promise.in_frame, promise.screen_error, promise.size))
 
 
-def beyond(
+def off_plan(
     mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
 ) -> list[Diagnostic]:
     """Return warnings on shots that a file shows differently from the plan, with the reason."""
@@ -170,7 +166,7 @@ def beyond(
         if max(each.worst, each.edge) <= WORST_HALF_FRAMES and each.mean <= MEAN_HALF_FRAMES:
             continue
         shot = mission.shot(each.shot)
-        reason, help_ = _why(track, each)
+        reason, help_ = _reason(track, each)
         out.append(
             Diagnostic(
                 "E117",
@@ -188,7 +184,7 @@ def beyond(
     return out
 
 
-def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
+def _reason(track: SampledFlight, each: ShotError) -> tuple[str, str]:
     """Return the reason for a shot's difference from the plan, and a remedy."""
     for stretch in track.stretches:
         part = slice(stretch.first, stretch.last + 1)
@@ -205,7 +201,7 @@ def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
     )
 
 
-def drifts(
+def without_clock(
     mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
 ) -> list[Diagnostic]:
     """Return warnings on the motion of moving targets during the lag of a file without clock."""
@@ -236,7 +232,7 @@ def drifts(
     return out
 
 
-def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: float) -> Diagnostic:
+def near_obstacle(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: float) -> Diagnostic:
     """Return the error that a file comes too near to an obstacle, so that it is not written."""
     return Diagnostic(
         "E119",
@@ -250,7 +246,7 @@ def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: f
     )
 
 
-def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> Diagnostic:
+def apart_by_timing(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> Diagnostic:
     """Return the error that only timing keeps two drones apart, so that they get no files.
 
     flown : drones of these files, at least one of the two
@@ -269,7 +265,7 @@ def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> D
     )
 
 
-def notes(drone: Drone, files: list[str], count: int, error: Error, models: int) -> list[str]:
+def notes_on_files(drone: Drone, files: list[str], count: int, error: Error, models: int) -> list[str]:
     """Return the notes on the error of a drone's files."""
     named = ", ".join(files)
     text = f"{drone.autopilot} {named}: {count} waypoints, position within {at_least(error.position)} m"
@@ -288,7 +284,7 @@ def zoomed_to(error: Error) -> str:
     return f"; the edge of the picture zooms to within {at_least(error.edge, 3)}" if error.edge > 0 else ""
 
 
-def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
+def set_by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     """Return the note on exposure settings for the pilot, because no mission file states them in a common
     way.
 

@@ -1,4 +1,4 @@
-"""Shots as tasks for the choice of drones: where and when each is filmed."""
+"""Shots as tasks for the choice of drones: where and when each is filmed, and which drones can film it."""
 
 from __future__ import annotations
 

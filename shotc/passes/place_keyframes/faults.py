@@ -1,4 +1,4 @@
-"""Diagnostics of infeasible compositions: the place that was taken instead, or what would fit.
+"""Diagnostics of infeasible compositions, and of stated turns during which the camera loses its target.
 
 Keyframes that share a line of the mission, as generated ones do, are reported once, for the worst of them.
 """

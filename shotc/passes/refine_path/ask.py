@@ -1,4 +1,8 @@
-"""Call a refiner, which may raise, take forever, or return anything."""
+"""Call a refiner, which may raise, take forever, or return anything.
+
+With a deadline it runs in its own process, which can be stopped at any time. The path and the answer pass
+through pipes; the refiner's prints go to standard error.
+"""
 
 from __future__ import annotations
 

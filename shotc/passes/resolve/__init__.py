@@ -32,6 +32,6 @@ class Resolve:
 
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[MissionIR]:
         """Resolve one mission."""
-        what = lowered(ir, self.kinds, self.emitters, ctx.progress)
-        faults = check(ir, what)
-        return Outcome(None if what.astray or stops(faults) else what.mission, tuple(faults))
+        partial = lowered(ir, self.kinds, self.emitters, ctx.progress)
+        faults = check(ir, partial)
+        return Outcome(None if partial.unplaced or stops(faults) else partial.mission, tuple(faults))

@@ -1,4 +1,4 @@
-"""Rehearses a fleet: how far its drones stray, and what remains of their separation."""
+"""Simulates a fleet, splines in and positions over time out: distances from the plan, and separation."""
 
 from __future__ import annotations
 

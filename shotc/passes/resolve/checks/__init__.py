@@ -29,28 +29,28 @@ from shotc.passes.resolve.lower import PartialMission
 from shotc.spec.load import LoadedMission
 
 
-def check(ir: LoadedMission, what: PartialMission) -> list[Diagnostic]:
+def check(ir: LoadedMission, partial: PartialMission) -> list[Diagnostic]:
     """Return the faults of a mission as written and as resolved, those of its names first."""
-    mission = what.mission
-    if what.astray and not has_errors(what.faults):
-        return list(what.faults)  # the ground is not known, so nothing on it can be checked
-    faults = [*what.faults, *(d for course in what.courses for d in check_course(mission, course))]
-    if not what.astray:
-        faults += _judged(ir, what, order=not has_errors(faults))
+    mission = partial.mission
+    if partial.unplaced and not has_errors(partial.faults):
+        return list(partial.faults)  # the ground is not known, so nothing on it can be checked
+    faults = [*partial.faults, *(d for course in partial.courses for d in check_course(mission, course))]
+    if not partial.unplaced:
+        faults += _judged(ir, partial, order=not has_errors(faults))
     if not has_errors(faults):
         faults += [*check_grammar(mission, allowed(ir.spec)), *covered(mission)]
     return faults
 
 
-def _judged(ir: LoadedMission, what: PartialMission, *, order: bool) -> list[Diagnostic]:
+def _judged(ir: LoadedMission, partial: PartialMission, *, order: bool) -> list[Diagnostic]:
     """Return the faults of numbers; ``order`` is whether all names and dependencies are valid."""
-    mission = what.mission
-    if unknown := list(check_counted(mission, ir.spec, what.level)):
+    mission = partial.mission
+    if unknown := list(check_counted(mission, ir.spec, partial.level)):
         return unknown
     faults = [
         *check_level(mission, ir.spec.world),
-        *check_underground(mission, ir.spec, what.level),
-        *_static_faults(mission, timing=what.sound, order=order),
+        *check_underground(mission, ir.spec, partial.level),
+        *_static_faults(mission, timing=partial.drones_valid, order=order),
         *check_parked(ir.spec, mission),
     ]
     if ir.spec.fleets:
@@ -77,7 +77,6 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     places += beside.places
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
     misplaced = {shot.path for shot, _ in wrong}
-    sound = [shot for shot in mission.shots if shot.path not in misplaced]
     faults = [*homes, *(d for shot, film in filmed for d in check_reference(mission, shot, film))]
     faults += [d for _, _, d in places]
     well_placed = [(shot, film) for shot, film in filmed if shot.path not in misplaced]
@@ -85,7 +84,9 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     faults += [d for shot, film in well_placed for d in check_shake(mission, shot, film)]
     faults += check_framing(mission, {path for _, path in wrong})
     if timing:
-        faults += check_timing(mission, sound, schedule=order and not homes and not wrong)
+        faults += check_timing(
+            mission, [shot for shot, _ in well_placed], schedule=order and not homes and not wrong
+        )
     return faults
 
 

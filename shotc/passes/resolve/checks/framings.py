@@ -98,18 +98,9 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     largest = size_from(needed, lens_of(drone), (x, y, z))
     if largest >= subject.size * (1 - ROUNDING):
         return None
-    path = shot_key(mission, shot, subject, "size")
     if isnan(largest):
-        return Diagnostic(
-            "M031",
-            f"no camera shows `{subject.target}` at its place on screen",
-            (mission.origins.value(shot_key(mission, shot, subject, "frame")),),
-            ("it would look so steeply up or down that this place cannot be reached without tilting",),
-            _either(for_place(_fits, mission, shot, subject), otherwise="lower the elevation of its view")
-            if advise
-            else "",
-        )
-    labels: tuple[Label, ...] = (mission.origins.value(path),)
+        return _never_in_its_place(mission, shot, subject, advise)
+    labels: tuple[Label, ...] = (mission.origins.value(shot_key(mission, shot, subject, "size")),)
     if ("rules", "target_clearance") in mission.origins.values:
         labels = (*labels, mission.origins.value(("rules", "target_clearance"), "the clearance"))
     return Diagnostic(
@@ -131,6 +122,17 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
         )
         if advise
         else "",
+    )
+
+
+def _never_in_its_place(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic:
+    remedies = for_place(_fits, mission, shot, subject)
+    return Diagnostic(
+        "M031",
+        f"no camera shows `{subject.target}` at its place on screen",
+        (mission.origins.value(shot_key(mission, shot, subject, "frame")),),
+        ("it would look so steeply up or down that this place cannot be reached without tilting",),
+        _either(remedies, otherwise="lower the elevation of its view") if advise else "",
     )
 
 
@@ -336,24 +338,15 @@ def _apart(
     """Return the fault of a subject out of the picture, or much too small because of others, or None."""
     shot = course.shot
     others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject) or "its camera near there"
-    label = mission.origins.value(subject.path)
+    message = f"`{subject.target}` cannot be in one picture with {others}"
+    labels = (mission.origins.value(subject.path),)
     if len(seen) < len(course.times):
-        return Diagnostic(
-            "M033",
-            f"`{subject.target}` cannot be in one picture with {others}",
-            (label,),
-            ("from where they appear as asked, it is behind the camera",),
-            "film it in another shot",
-        )
+        note = "from where they appear as asked, it is behind the camera"
+        return Diagnostic("M033", message, labels, (note,), "film it in another shot")
     t, worst, _ = max(seen, key=lambda entry: entry.appearance.out)
     if worst.out > OUT_HALF_FRAMES:
-        return Diagnostic(
-            "M033",
-            f"`{subject.target}` cannot be in one picture with {others}",
-            (label,),
-            (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
-            "film it in another shot, or take a wider lens",
-        )
+        note = f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best"
+        return Diagnostic("M033", message, labels, (note,), "film it in another shot, or take a wider lens")
     sized = [(e.appearance.size / e.required.size, e) for e in seen if e.required.size is not None]
     if not sized:
         return None

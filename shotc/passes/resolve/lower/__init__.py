@@ -41,16 +41,16 @@ class PartialMission(NamedTuple):
     """A mission as far as it can be resolved, and the faults of its text.
 
     courses : of its framings, in the order of the shots
-    astray : whether its places on earth are too far from each other, or its ground is not known
-    sound : whether every drone can fly as written
+    unplaced : whether its places on earth are too far from each other, or its ground is not known
+    drones_valid : whether every drone can fly as written
     level : targets whose tracks are from files without heights
     """
 
     mission: MissionIR
     courses: tuple[StartedFraming, ...]
     faults: tuple[Diagnostic, ...]
-    astray: bool
-    sound: bool
+    unplaced: bool
+    drones_valid: bool
     level: frozenset[str]
 
 
@@ -70,7 +70,7 @@ def lowered(
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
     faults = once([*world.faults, *music.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
     mission, courses = with_framings(with_times(_mission(ir, world, shots, show, music)))
-    return PartialMission(mission, courses, tuple(faults), world.astray, world.sound, world.level)
+    return PartialMission(mission, courses, tuple(faults), world.unplaced, world.drones_valid, world.level)
 
 
 class _World(NamedTuple):
@@ -78,8 +78,8 @@ class _World(NamedTuple):
 
     put : converts a place into W
     read : reader of the files, with those that were read
-    astray : whether its places on earth are too far from each other, or its ground is not known
-    sound : whether every drone can fly as written
+    unplaced : whether its places on earth are too far from each other, or its ground is not known
+    drones_valid : whether every drone can fly as written
     level : targets whose tracks are from files without heights
     heights : z of the ground at x and y
     terrain : of that ground, None where it is flat
@@ -94,8 +94,8 @@ class _World(NamedTuple):
     targets: Targets
     rules: Rules
     faults: tuple[Diagnostic, ...]
-    astray: bool
-    sound: bool
+    unplaced: bool
+    drones_valid: bool
     level: frozenset[str]
     heights: GroundHeight
     terrain: "Terrain | None"
@@ -108,7 +108,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], music: M
         world.drones,
         world.targets.by_name,
         world.rules,
-        world.files.origin or (ANYWHERE if world.astray else None),
+        world.files.origin or (ANYWHERE if world.unplaced else None),
         ir.origins,
         world.files.read,
         partial(match_files, ir.folder, ir.origins),
@@ -131,16 +131,17 @@ def _show(ir: LoadedMission, world: _World, shots: Shots, music: MusicReading) -
 
 def _world(ir: LoadedMission) -> _World:
     spec, origins = ir.spec, ir.origins
-    astray = check_earth(spec, origins)
+    earth_faults = check_earth(spec, origins)
     origin = geo_origin(spec)
     read = FileReader(ir.folder, origins)
     files = Files(origin, origins, read)
-    terrain = None if astray else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), files)
-    astray = [*astray, terrain] if isinstance(terrain, Diagnostic) else astray
+    terrain = None if earth_faults else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), files)
+    if isinstance(terrain, Diagnostic):
+        earth_faults = [*earth_faults, terrain]
     relief = None if isinstance(terrain, Diagnostic) else terrain
     heights = flat if relief is None else relief.z
     put = partial(placed, origin or ANYWHERE, heights)
-    standing = Obstacles(unread=True) if astray else read_obstacles(spec, put, relief, files)
+    standing = Obstacles(unread=True) if earth_faults else read_obstacles(spec, put, relief, files)
     found_zones, zone_faults = zones(spec, put, relief, origins)
     found_drones, drone_faults = drones(spec, put, origins)
     tracks = read_tracks(spec, put, files)
@@ -153,12 +154,19 @@ def _world(ir: LoadedMission) -> _World:
         found_drones,
         found_targets,
         _rules(spec.rules),
-        (*astray, *standing.faults, *zone_faults, *drone_faults, *tracks.diagnostics, *found_targets.faults),
-        astray=bool(astray),
+        (
+            *earth_faults,
+            *standing.faults,
+            *zone_faults,
+            *drone_faults,
+            *tracks.diagnostics,
+            *found_targets.faults,
+        ),
+        unplaced=bool(earth_faults),
         heights=heights,
         terrain=relief,
         standing=standing,
-        sound=not has_errors(drone_faults),
+        drones_valid=not has_errors(drone_faults),
         level=tracks.level,
     )
 
