@@ -56,7 +56,7 @@ def test_verify_names_the_worst_drone_of_every_claim(run: Run, show: Path) -> No
         "and",
         "swarm-2",
     ]
-    assert "26 requirements proved again" in done.out
+    assert "27 requirements proved again" in done.out
     as_json = json.loads(run("verify", str(show), "--format", "json").out)
     assert as_json["holds"]
     assert as_json["certificate"][-1]["drones"] == ["swarm-1", "swarm-2"]
@@ -109,7 +109,7 @@ def test_the_summary_of_a_thousand_drones_is_a_screen() -> None:
     assert lines[0] == "show: 1 display of 1000 drones, 0:46.0 in the air, planned and proved"
     assert "swarm (1000 drones)" in text
     assert "come nearest, 4.000 m, 1.150 m needed" in text
-    assert "26 requirements hold" in text
+    assert "27 requirements hold" in text
 
 
 def test_the_summary_of_several_fleets_names_each() -> None:

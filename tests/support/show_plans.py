@@ -108,10 +108,11 @@ def _shown(shot: str) -> tuple[FrameTimes, ...]:
 
 
 def _lights(n: int) -> Lights:
-    colors = np.zeros((n, 4, 3), dtype=np.uint8)
-    colors[:, :2] = (255, 255, 255)
-    colors[:, 2:] = (255, 128, 0)
-    return Lights(np.array([16.0, 20.0, 26.0, 28.0]), colors)
+    """Dark until the end of the take-off and from the landing on."""
+    colors = np.zeros((n, 6, 3), dtype=np.uint8)
+    colors[:, 1:3] = (255, 255, 255)
+    colors[:, 3:5] = (255, 128, 0)
+    return Lights(np.array([8.0, 16.0, 20.0, 26.0, 28.0, 38.0]), colors)
 
 
 def show(asked: MissionIR | None = None) -> TrajectoryIR:

@@ -75,8 +75,8 @@ MUSICAL: tuple[CodeInfo, ...] = (
         "D124",
         "picture-too-late",
         "a picture cannot stand at its time",
-        "The picture before it is held as long as it asks for, and then the way takes its time, at the pace of the display or "
-        "as `transition` says. The message gives the earliest moment, in seconds and in beats.",
+        "The picture before it is held as long as it asks for, and then the way takes its time: as `transition` says, or "
+        "as little as the limits allow, whatever the pace of the display. The message gives the earliest moment, in seconds and in beats.",
         _DANCE,
         ("at: {bar: 17}", "at: {bar: 9}"),
     )._replace(phase="plan"),

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import groupby
+from math import inf
 
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, FrameTimes, Recorded
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
@@ -18,6 +18,7 @@ from shotc.show.assignment.lights import Images, StandingFrame, rows_of, with_ef
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import DroneOrder, OrderedFrame
 from shotc.show.assignment.score import FlightScore, Motion
+from shotc.show.assignment.swell import Ends
 from shotc.show.assignment.waves import Waves
 
 TINY_S = 1e-6
@@ -117,7 +118,8 @@ class Director:
         here = score.places if self._done else self.cast.up.above
         rise = way_up(self.fleet, self.cast.up)
         lead = 0.0 if self._done else rise.duration
-        move, duration = self._move_to(display, first, here, scenes[0].places)
+        left = inf if display.start is None else display.start - score.clock - lead
+        move, duration = self._move_to(display, first, (here, scenes[0].places), left)
         wait = self._wait(display, score.clock + lead + duration, ready)
         score.stand(wait)
         if not self._done:
@@ -160,7 +162,8 @@ class Director:
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
             if frames[0] is not scenes[0]:
-                move, duration = self._move_to(display, picture, self.score.places, frames[0].places)
+                left = inf if picture.at is None else picture.at - self.score.clock
+                move, duration = self._move_to(display, picture, (self.score.places, frames[0].places), left)
                 self._stand_until(picture, duration)
                 self.score.move(frames[0].places, move, duration)
             self._show(display, picture, frames)
@@ -190,21 +193,32 @@ class Director:
         for scene, start, end in zip(frames, times, ends, strict=True):
             score.shown.append(FrameTimes(display.id, scene.frame.picture, scene.frame.index, start, end))
 
-    def _move_to(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
-        """Return the move to a picture, and its duration."""
-        if picture.wave is not None:
-            wave = self.waves.move((here, there), display, picture)
-            return wave, wave.duration
-        move = self.mover.move(here, there, display.pace, picture)
-        return move, self._duration(picture, here, there, move)
+    def _move_to(self, display: Display, picture: Picture, ends: Ends, left: float) -> tuple[Motion, float]:
+        """Return the move to a picture, and its duration.
 
-    def _duration(self, picture: Picture, here: Array, there: Array, move: Motion) -> float:
-        """Return the duration of a move: the requested one, if it is feasible."""
-        if picture.transition is None:
-            return move.duration
-        full = self.mover.move(here, there, 1.0, picture)
+        left : seconds until the picture has to stand; infinity if its time is free
+        """
+        move = self._move(display, picture, ends)
+        if picture.transition is not None and picture.wave is None:
+            return move, self._given(picture, ends, move)
+        if move.duration <= left + TINY_S or picture.transition is not None or display.pace == 1.0:
+            return move, move.duration
+        # A pace holds where the time is free. A time that is given is met with the full limits if necessary.
+        full = self._move(display._replace(pace=1.0), picture, ends)
+        return full, full.duration if picture.wave is not None else max(full.duration, left)
+
+    def _move(self, display: Display, picture: Picture, ends: Ends) -> Motion:
+        """Return the fastest move to a picture at the pace of its display."""
+        if picture.wave is not None:
+            return self.waves.move(ends, display, picture)
+        return self.mover.move(*ends, display.pace, picture)
+
+    def _given(self, picture: Picture, ends: Ends, move: Motion) -> float:
+        """Return the given duration of a move, if it is feasible."""
+        assert picture.transition is not None
+        full = self.mover.move(*ends, 1.0, picture)
         if picture.transition >= full.duration - TINY_S:
             return max(picture.transition, full.duration)
-        distance = float(np.linalg.norm((there - here)[full.drone]))
+        distance = float(np.linalg.norm((ends[1] - ends[0])[full.drone]))
         self._found.append(faults.too_fast(self.mission, self.fleet, picture, full, distance))
         return full.duration

@@ -6,8 +6,9 @@ their centroids, adjusted for the audience (*display* Section III), then moved a
 It guarantees that no two goals of a frame are nearer than the separation allows. Where there is room, goals
 are as far apart as straight moves between pictures need. All goals are clear of obstacles and of the ground.
 
-Each frame of one picture begins with the goals of the frame before. A recorded flight is brought within the
-limits of the drones (``show.recorded``), and its frames are samples of it.
+Each frame of one picture begins with the goals of the frame before. Pictures of one shape are drawn from the
+same points, so a repeated picture has the same goals, and one at another place has them moved. A recorded
+flight is brought within the limits of the drones (``show.recorded``), and its frames are samples of it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from shotc.ir.fleet import FleetGoals, GoalIR
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.show import Display, Fleet
+from shotc.ir.show import Display, Fleet, Picture
 from shotc.show.goals.flown import RecordedPicture, flown, is_recorded
 from shotc.show.goals.layout import PictureTask
 from shotc.show.goals.picture import PictureResult, draw_picture
@@ -73,11 +74,21 @@ def _display(
         weight=display.weight,
         surroundings=room_of(mission, fleet),
     )
-    number = mission.displays.index(display)
     drawn = []
     for k in range(len(display.pictures)):
         ctx.progress(f"placing the goals of {display.id}, picture {k + 1} of {len(display.pictures)}")
-        drawn.append(
-            draw_picture(PictureTask(mission, fleet, display, k, (ctx.seed, number, k), files), setting)
-        )
+        seed = (ctx.seed, *_first_alike(mission, display.pictures[k]))
+        drawn.append(draw_picture(PictureTask(mission, fleet, display, k, seed, files), setting))
     return drawn
+
+
+def _first_alike(mission: MissionIR, picture: Picture) -> tuple[int, int]:
+    """Return the first picture of a mission that has the shape of a given one: its display and its number."""
+    pictures = ((i, k, one) for i, d in enumerate(mission.displays) for k, one in enumerate(d.pictures))
+    return next((i, k) for i, k, one in pictures if _shape(one) == _shape(picture))
+
+
+def _shape(picture: Picture) -> tuple[object, ...]:
+    """Return what makes the shape of a picture, without its place."""
+    source = picture.source
+    return (type(source), {**source._asdict(), "centre": None}, picture.fill, picture.layers)

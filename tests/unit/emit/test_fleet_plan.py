@@ -78,7 +78,7 @@ def test_every_source_comes_back_and_files_stay_away() -> None:
 def test_a_drone_is_a_line_of_short_numbers() -> None:
     document = json.loads(DATA)
     (track,) = document["fleets"]
-    assert track["lights"]["colors"] == ["ffffffffffffff8000ff8000"] * 4
+    assert track["lights"]["colors"] == ["000000ffffffffffffff8000ff8000000000"] * 4
     assert [len(row) for row in track["coef"]] == [26] * 4
     lines = DATA.decode("ascii").splitlines()
     assert sum(line.strip().startswith("[[0.0,0.0,0.0],[0.0,0.0,0.0]") for line in lines) == 1

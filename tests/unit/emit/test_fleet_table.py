@@ -90,9 +90,10 @@ def test_places_on_the_earth() -> None:
 
 def test_lights_fade_between_their_times() -> None:
     at = {float(row["t_s"]): [int(row[c]) for c in ("red", "green", "blue")] for row in ROWS[:231]}
-    assert at[0.0] == at[20.0] == [255, 255, 255]
+    assert at[0.0] == at[8.0] == at[38.0] == at[46.0] == [0, 0, 0]
+    assert at[16.0] == at[20.0] == [255, 255, 255]
     assert at[23.0] == [255, 192, 128]
-    assert at[26.0] == at[46.0] == [255, 128, 0]
+    assert at[26.0] == at[28.0] == [255, 128, 0]
 
 
 def test_lights_of_one_time_or_of_a_step_stand() -> None:

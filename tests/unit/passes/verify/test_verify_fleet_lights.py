@@ -51,7 +51,7 @@ def test_a_picture_in_another_colour_is_refused() -> None:
 @pytest.mark.parametrize(("by", "holds"), [(1, True), (2, False)])
 def test_rounding_of_a_level_is_no_other_colour(by: int, holds: bool) -> None:
     def darker(colors: np.ndarray) -> None:
-        colors[2, 1] -= by
+        colors[2, 2] -= by
 
     found = claims(edited(darker))[OFF]
     assert (found.worst, found.holds, found.drones) == (by, holds, ("swarm-3",))
@@ -59,27 +59,27 @@ def test_rounding_of_a_level_is_no_other_colour(by: int, holds: bool) -> None:
 
 def test_a_light_that_goes_out_while_its_picture_stands_is_off_its_colour() -> None:
     lights = SHOW.fleets[0].lights
-    colors = np.insert(lights.colors, 1, 0, axis=1)
-    out = with_lights(Lights(np.array([16.0, 18.0, 20.0, 26.0, 28.0]), colors))
+    colors = np.insert(lights.colors, 2, 0, axis=1)
+    out = with_lights(Lights(np.insert(lights.times, 2, 18.0), colors))
     assert claims(out)[OFF].worst == 255.0
 
 
 def test_a_picture_of_dark_lights_is_refused() -> None:
     def dark(colors: np.ndarray) -> None:
-        colors[:, 2:] = 0
+        colors[:, 3:5] = 0
 
     found = claims(edited(dark))[DARK]
     assert (found.worst, found.limit, found.holds) == (1.0, 0.75, False)
 
     def but_one(colors: np.ndarray) -> None:
-        colors[1:, 2:] = 0
+        colors[1:, 3:5] = 0
 
     assert claims(edited(but_one))[DARK].holds
 
 
 def test_black_is_a_colour_that_may_be_asked() -> None:
     def dark(colors: np.ndarray) -> None:
-        colors[:, :2] = 0
+        colors[:, 1:3] = 0
 
     found = claims(edited(dark, asking(color=(0, 0, 0))))
     assert found[OFF].holds
@@ -93,17 +93,18 @@ def test_the_colours_of_a_file_are_not_judged_but_its_darkness_is() -> None:
     assert second_alone.time == 26.0
 
     def dark(colors: np.ndarray) -> None:
-        colors[:, :2] = 0
+        colors[:, 1:3] = 0
 
     assert not claims(edited(dark, ir))[DARK].holds
 
 
 def test_with_effects_drones_that_a_picture_leaves_out_are_dark_and_all_others_are_not() -> None:
     layer = Layer(Tint((0, 0, 255)), "mix", 1.0, FadeTimes(16.0, 16.0, 20.0, 20.0))
-    lights = replace(SHOW.fleets[0].lights, looks=(Look((layer,), (3,)), Look((), ())), of=(0, 0, 1, 1))
+    looks = (Look((layer,), (3,)), Look((), ()))
+    lights = replace(SHOW.fleets[0].lights, looks=looks, of=(-1, 0, 0, 1, 1, -1))
     assert claims(with_lights(lights))[OFF].drones == ("swarm-4",)
     colors = lights.colors.copy()
-    colors[3, :2] = 0
+    colors[3, 1:3] = 0
     found = claims(with_lights(replace(lights, colors=colors)))
     assert found[OFF].holds
     assert found[DARK].worst == 0.25

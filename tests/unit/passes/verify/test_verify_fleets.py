@@ -85,7 +85,7 @@ def test_a_sound_show_is_verified() -> None:
         "times flown", "pictures left out", "pictures out of order", "lack of hold", "excess of hold",
         "display without a picture", "light off its colour", "dark lights of a picture",
         "light off its picture", "picture without lights", "picture off its place", "picture off its size",
-        "error of transition", "drift at rest", "separation",
+        "error of transition", "drift at rest", "light between pictures", "separation",
     }  # fmt: skip
     for c in verdict.certificate:
         assert rule_of(c.constraint, mission()).code in registry()

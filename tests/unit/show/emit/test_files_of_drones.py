@@ -33,9 +33,13 @@ def flown(made: VerifiedIR, times: np.ndarray, number: int = 0) -> np.ndarray:
 
 
 def shone(times: np.ndarray) -> np.ndarray:
-    """Colours (T, 3) of every drone: white to 20 s, orange from 26 s, linear between."""
+    """Colours (T, 3) of every drone: white from 16 to 20 s, orange from 26 to 28 s, linear between.
+
+    They are black to 8 s and from 38 s on.
+    """
     share = np.clip((times - 20.0) / 6.0, 0.0, 1.0)[:, None]
-    return np.array([255.0, 255.0, 255.0]) + share * np.array([0.0, -127.0, -255.0])
+    lit = np.clip(np.minimum((times - 8.0) / 8.0, (38.0 - times) / 10.0), 0.0, 1.0)[:, None]
+    return lit * (np.array([255.0, 255.0, 255.0]) + share * np.array([0.0, -127.0, -255.0]))
 
 
 def unzipped(data: bytes) -> dict[str, np.ndarray]:

@@ -318,3 +318,14 @@ def test_all_pictures_with_faults_are_told() -> None:
     drawn = display(picture(BALL, "outline"), picture(Sphere((0.0, 0.0, 5.0), 15.0), index=1))
     found = PlaceGoals().run(show(drawn, fleet(30)), PassContext())
     assert [d.code for d in found.diagnostics] == ["D060", "D058"]
+
+
+@pytest.mark.parametrize(
+    "source", [BALL, Torus(MIDDLE, 16.0, 5.0, 0.4, pi / 2), Lettering("GO", MIDDLE, 24.0, 0.3, None)]
+)
+def test_a_repeated_picture_has_the_same_goals_and_a_moved_one_has_them_moved(source) -> None:
+    other, moved = Box(MIDDLE, (24.0, 24.0, 24.0), 0.5), source._replace(centre=(5.0, 10.0, 60.0))
+    pictures = (picture(source), picture(other), picture(source)._replace(color=(255, 0, 0)), picture(moved))
+    frames = goals_of(show(display(*pictures), fleet(24, APART))).fleets[0].frames
+    assert np.array_equal(frames[0].points, frames[2].points)
+    assert frames[3].points == pytest.approx(frames[0].points + np.array([5.0, 10.0, 0.0]), abs=1e-6)

@@ -13,7 +13,7 @@ from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.limits import Timing
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.show import Apart, Easing
+from shotc.ir.show import Apart, Display, Easing
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.assignment import AssignGoals
 from shotc.show.separation import KeepApart
@@ -164,6 +164,38 @@ def test_a_start_that_is_too_early_names_the_earliest() -> None:
     assert found.code == "D081"
     earliest = float(found.help.split("start: ")[1].split(" s")[0])
     assert AssignGoals().run(_with_display(ir, shown._replace(timing=Timing(start=earliest))), CONTEXT).value
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("given", ["start", "at"])
+def test_a_time_that_is_given_is_met_with_the_full_limits(given: str) -> None:
+    """A pace of 0.5 leaves moves more time than they need, where their time is free."""
+    ir = morph(20)
+    calm = ir.keyframes.mission.displays[0]._replace(pace=0.5)
+
+    def shown(display: Display, k: int) -> float:
+        return assigned(_with_display(ir, display)).fleets[0].shown[k].start
+
+    k, hurried = (0, shown(calm._replace(pace=1.0), 0)) if given == "start" else (1, shown(calm, 0) + 2.0)
+    if given == "at":
+        at_full = assigned(_with_display(ir, calm._replace(pace=1.0))).fleets[0].shown
+        hurried += at_full[1].start - at_full[0].end
+    time = 0.5 * (hurried + shown(calm, k))
+    assert hurried + 0.5 < time < shown(calm, k) - 0.5
+    first, second, third = calm.pictures
+    timed = {
+        "start": calm._replace(timing=Timing(start=time)),
+        "at": calm._replace(pictures=(first, second._replace(at=time), third)),
+    }[given]
+    assert shown(timed, k) == pytest.approx(time, abs=1e-6)
+    assert within_limits(flown(_with_display(ir, timed)))
+    later = {
+        "start": timed._replace(timing=Timing(start=hurried - 0.1)),
+        "at": timed._replace(pictures=(first, second._replace(at=hurried - 0.1), third)),
+    }[given]
+    (found,) = AssignGoals().run(_with_display(ir, later), CONTEXT).diagnostics
+    assert found.code == {"start": "D081", "at": "D124"}[given]
+    assert f"{hurried:.2f}"[:-1] in found.message
 
 
 def test_endurance_and_a_display_without_time() -> None:
