@@ -75,10 +75,10 @@ def free_from(flight: JudgedFlight, placed: PlacedShot, start: float) -> float |
 
 def pace_note(ir: TrajectoryIR, claim: Claim) -> Iterator[str]:
     """Yield which limit a shot uses most, and its pace; nothing of another claim."""
-    if claim.constraint != CONSTRAINT:
+    if claim.constraint != CONSTRAINT or claim.shot is None:
         return
     mission = ir.keyframes.mission
-    shot = mission.shot(claim.shot or "")
+    shot = mission.shot(claim.shot)
     track = next(track for track in ir.drones if track.drone == claim.subject)
     phase = next(p for p in track.phases if p.shot == shot.id)
     uses = limit_uses(mission.drone(track.drone), cut(track.curve, phase.start, phase.end), shot.smoother)
