@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf
 
 import pytest
+from matplotlib.colors import CSS4_COLORS
 
 from shotc.diag.registry import registry
 from shotc.spec.colors import COLORS
@@ -67,6 +68,10 @@ def test_what_is_no_colour_is_refused_with_a_proposal(color: str) -> None:
 
 def test_every_named_colour_has_three_bytes() -> None:
     assert all(len(rgb) == 3 and all(0 <= c <= 255 for c in rgb) for rgb in COLORS.values())
+
+
+def test_the_names_of_colours_are_those_of_css() -> None:
+    assert {name: "#{:02X}{:02X}{:02X}".format(*rgb) for name, rgb in COLORS.items()} == CSS4_COLORS
 
 
 @pytest.mark.parametrize(("written", "weight"), [("0", 0.0), ("0.5", 0.5), ("7", 7.0), (".inf", inf)])
