@@ -15,8 +15,7 @@ from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import PathIR, needed
 from shotc.passes.refine_path.account import account
 from shotc.passes.refine_path.ask import ask
-from shotc.passes.refine_path.blame import blame, shortest_refined, valid_on_refined
-from shotc.passes.refine_path.instead import with_convex
+from shotc.passes.refine_path.blame import blame, shortest_refined, valid_on_refined, with_convex
 from shotc.passes.refine_path.seat import REFINER, KeepPath, Seat, Unusable
 from shotc.passes.refine_path.settle import settle
 

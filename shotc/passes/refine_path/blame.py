@@ -1,15 +1,20 @@
-"""Diagnostics that a refined path changes: errors caused by the refiner, and warnings that no longer hold."""
+"""Diagnostics that a refined path changes: errors caused by the refiner, and warnings that no longer hold.
+
+A refiner's error also says what the convex path offers: how to keep it, or why it fails as well.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
 from shotc.ir.drawn import is_drawn
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CORNERS, ClockDeviation, PathDeviation, PathIR, filmed
-from shotc.passes.refine_path.finding import RefinerFault
+from shotc.passes.refine_path.finding import RefinerFault, shot_of
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept_convex, same
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
@@ -27,6 +32,8 @@ OF_A_PATH = "Q006"
 distance."""
 OF_THE_GUIDE = "M008"
 """The warning about the deviation of a shot on its own clock; a refined shot has another deviation."""
+FAMILY = "R"
+NONE = "plan with `--refiner none`"
 
 
 class Blame(NamedTuple):
@@ -134,3 +141,29 @@ def _refined(paths: tuple[PathIR, PathIR]) -> list[Shot]:
     before, after = paths
     shots = before.keyframes.mission.shots
     return [s for s in shots if not same(filmed(before, s.id), filmed(after, s.id))]
+
+
+def with_convex(
+    path: PathIR, diagnostics: Iterable[Diagnostic], later: Iterable[Diagnostic]
+) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics, with a note on the convex path in the refiner's errors.
+
+    path : the convex one
+    later : diagnostics of the later passes on it
+    """
+    against = next((d for d in later if has_errors([d])), None)
+    return tuple(
+        _with_convex(path, d, against) if has_errors([d]) and d.code[0] == FAMILY else d for d in diagnostics
+    )
+
+
+def _with_convex(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagnostic:
+    shot = shot_of(path.keyframes.mission, error)
+    whose = "the convex path" if shot is None else f"the convex path of shot `{shot}`"
+    if against is not None:
+        note = f"{whose} cannot be flown either: {against.code}: {against.message}"
+        return error._replace(notes=(*error.notes, note), help=against.help or error.help)
+    where = "all shots" if shot is None else f"shot `{shot}`"
+    keep = f"let {where} fly the convex path by `refine: {{optional: true}}`, or {NONE}"
+    note = f"{whose} keeps every limit and promise"
+    return error._replace(notes=(*error.notes, note), help="; or ".join(filter(None, (error.help, keep))))

@@ -13,8 +13,7 @@ from shotc.ir.flown_order import flown_order
 from shotc.ir.keyed import is_keyed
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.checks.motion import least_shot, least_travel, length
-from shotc.passes.resolve.checks.wind import less_wind
+from shotc.passes.resolve.checks.motion import least_shot, least_travel, length, less_wind
 from shotc.rounding import at_least
 
 _LESS = ("shorten the shot", "cut it in two for two flights")

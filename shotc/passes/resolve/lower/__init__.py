@@ -124,7 +124,7 @@ def _show(ir: LoadedMission, world: _World, shots: Shots, music: MusicReading) -
     """Return what fleets fly and draw; a mission without them loads none of it."""
     if not ir.spec.fleets:
         return ShowMaterial()
-    from shotc.passes.resolve.lower.show import show_material
+    from shotc.passes.resolve.lower.material import show_material
 
     return show_material(ir, PadSite(world.put, world.heights), world.files, shots.displays, music.song)
 

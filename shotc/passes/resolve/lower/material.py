@@ -1,4 +1,4 @@
-"""Files that displays draw: meshes, drawings, fonts."""
+"""What shows need: fleets, and the files that displays draw (meshes, drawings, fonts)."""
 
 from __future__ import annotations
 
@@ -17,9 +17,13 @@ from shotc.kinds.files import FileFault
 from shotc.kinds.image_file import image_fault
 from shotc.kinds.models.endings import FLIGHT_ENDINGS
 from shotc.kinds.svg import svg_fault
-from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
+from shotc.passes.resolve.lower.files import NOT_KEPT, Files, read_file
+from shotc.passes.resolve.lower.fleets import fleets_of
+from shotc.passes.resolve.lower.shots import ShowMaterial
+from shotc.passes.resolve.lower.world import PadSite
 from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
+from shotc.spec.load import LoadedMission
 
 LARGEST_MESH_BYTES = 64_000_000  # bytes of one mesh or font
 LARGEST_FLIGHT_BYTES = 200_000_000  # bytes of one recorded flight, as in `importers.flights`
@@ -137,3 +141,19 @@ def _image(data: bytes, origins: OriginMap, name: str, path: KeyPath) -> bytes |
     code, message = ("D101", "is too large") if wrong.size else ("D100", "cannot be read")
     label, fault = origins.value(path), wrong.fault
     return Diagnostic(code, f"image `{name}` {message}", (label,), (fault.message,), fault.help)
+
+
+def show_material(
+    ir: LoadedMission,
+    site: PadSite,
+    files: Files,
+    displays: tuple[Display, ...],
+    song: tuple[str, bytes] | None = None,
+) -> ShowMaterial:
+    """Resolve the fleets, and read the files of their displays; song : (name, bytes)."""
+    fleets, wrong = fleets_of(ir.spec, site, files)
+    if isinstance(ir.folder, KeptFiles):
+        return ShowMaterial(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
+    drawn, missing = read_material(displays, ir.folder, ir.origins)
+    material = drawn if song is None else (*drawn, song)
+    return ShowMaterial(fleets, material, digests(drawn), (*wrong, *missing))
