@@ -244,15 +244,12 @@ def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim
 
     A target hidden in most frames has a warning already.
     """
-    shot = _shot(mission, claim.shot)
-    if not isinstance(shot, Shot):
-        return False
+    shot = mission.shot(claim.shot)
     if code != "V030":
         on_purpose = code == "V031" and _mostly_hidden(claim, claims)
         return on_purpose or HIDDEN in shot.allow
-    promised = next(
-        (s.size for s in shot.subjects if s.target == claim.constraint.rsplit(" ", 2)[0]), shot.size
-    )
+    target = claim.constraint.removesuffix(" in frame")
+    promised = next((s.size for s in shot.subjects if s.target == target), shot.size)
     return promised is not None and promised > 1.0
 
 

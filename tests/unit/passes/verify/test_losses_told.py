@@ -8,7 +8,7 @@ from shotc.ir.mission import Subject
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.report import report
 from tests.support.records import replace
-from tests.support.tampered_plans import MISSION, PLAN, with_shot
+from tests.support.tampered_plans import MISSION, PLAN, with_mission, with_shot
 from tests.support.verdicts import claim
 
 PLACES = MISSION.shots[0].keyframes[0].composition
@@ -40,7 +40,8 @@ def test_a_target_hidden_in_most_frames_is_told_once() -> None:
     ],
 )
 def test_another_loss_does_not_hide_the_one_of_a_target(elsewhere: Claim) -> None:
-    assert "V031" in told(PLAN, COVERED, elsewhere)
+    shots = (*MISSION.shots, replace(MISSION.shots[0], id="another"))
+    assert "V031" in told(with_mission(shots=shots), COVERED, elsewhere)
 
 
 @pytest.mark.parametrize(("size", "codes"), [(None, ["V030"]), (0.9, ["V030"]), (1.4, []), (2.2, [])])
