@@ -88,7 +88,7 @@ drones:
     camera: {{hfov: 70 deg, aspect: "16:9"}}
     radius: 0.6
     endurance: 20 min
-    body: free
+    body: follow-camera
 rules: {{composition: center, separation: 3, ground_clearance: 2, target_clearance: 1}}
 shots:
   - id: half
@@ -153,7 +153,7 @@ def _drone() -> Drone:
         radius=0.6,
         endurance=1200.0,
         priority=1,
-        body="free",
+        body="follow-camera",
         autopilot="px4",
         path=("drones", "cam1"),
     )

@@ -32,7 +32,7 @@ def codes(outcome: Outcome[PathIR]) -> list[str]:
 
 def mission(*zones: Zone, targets: tuple[Target, ...] | None = None, **drone: object) -> MissionIR:
     base = orbit_mission()
-    made = replace(base, zones=zones, drones=(replace(base.drones[0], **drone),))
+    made = replace(base, zones=zones, drones=(replace(base.drones[0], **{"body": "free", **drone}),))
     if targets is None:
         return made
     # The shots of the mission that it is made from film a target that is gone.

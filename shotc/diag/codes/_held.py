@@ -127,7 +127,7 @@ HELD: tuple[CodeInfo, ...] = (
             "At a keyframe the lens is the one that is asked for, a camera that frames nothing has its written "
             "angles, and one that goes round goes round as often as it should. Between two keyframes both stay "
             "between theirs, unless the camera follows a target or the lens zooms to show it. A body that "
-            "follows its camera turns with it. The place of a target on screen has codes of its own (V030, "
+            "follows its camera turns with it, and a free one turns hardly more than the gimbal needs. The place of a target on screen has codes of its own (V030, "
             "V032), and held where the shot says `require`. Plan the mission again.",
         ),
     ),

@@ -17,6 +17,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.sampling import ticks_inside
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
 from shotc.passes.verify.pictured import KeyframedSpan, spans_of
@@ -36,6 +37,9 @@ AROUND_RAD = pi / 2
 
 BODY_RAD = 1e-3
 """Tolerance of the heading of a body that turns with its camera, radians."""
+
+TURN_RATIO, TURN_RAD = 1.5, 0.35
+"""Largest turn of a free body over the least one, and radians beyond it, because its curve is smooth."""
 
 SWUNG_RAD = 0.5
 """Angle by which a camera that frames nothing may leave the range between two keyframes, radians: a curve
@@ -65,6 +69,8 @@ def looking(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
         times = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
         yield from _at_keyframes(flight, now, np.array([times[i] for i in range(len(now.keyframes))]))
         yield from _between(flight, now, spans)
+        if flight.drone.body == "free" and placed.shot.ideal is None:
+            yield from _free_body(flight, placed, phase)
 
 
 def _body(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Claim:
@@ -75,6 +81,28 @@ def _body(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Claim:
     limit = Limit("body off its camera", BODY_RAD, "rad", (*flight.drone.path, "body"), shot=placed.shot.id)
     bound = sup_convex(angles, lambda c: np.abs(c[..., 0] - c[..., 1] - around), gap(BODY_RAD))
     return bounded(flight, limit, bound)
+
+
+def _free_body(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+    """Yield the claim that a free body turns hardly more than the gimbal's range asks for.
+
+    A body that is led by the ends of the range alone turns least. With `look_ahead` it turns for that.
+    """
+    if flight.mission.rules.look_ahead is not None:
+        return
+    ticks = ticks_inside(flight.mission.rate, phase.start, phase.end)
+    angles = flight.track.curve(np.union1d(ticks, [phase.start, phase.end]))[:, [CAM_YAW, BODY_YAW]]
+    low, high = flight.drone.gimbal.yaw
+    apart = angles[0, 0] - angles[0, 1]
+    around = 2.0 * pi * np.round((apart - 0.5 * (low + high)) / (2.0 * pi))
+    body, least = float(angles[0, 1]), 0.0
+    for camera in (angles[:, 0] - around).tolist():
+        led = min(max(body, camera - high), camera - low)
+        body, least = led, least + abs(led - body)
+    flown = float(np.abs(np.diff(angles[:, 1])).sum())
+    path = (*flight.drone.path, "body")
+    limit = Limit("turn of a free body", TURN_RATIO * least + TURN_RAD, "rad", path, shot=placed.shot.id)
+    yield claim(flight, limit, WorstValue(flown, phase.start, "sampled"))
 
 
 def _on_clock(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:

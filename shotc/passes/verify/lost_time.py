@@ -21,6 +21,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
+from shotc.ir.tolerances import ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.explained import size_of
@@ -100,10 +101,12 @@ def _moves(curve: Piecewise, span: tuple[float, float]) -> Array:
 
 def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield the claim on the time that a shot loses on its legs between keyframes."""
-    at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
+    known = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
     count = len(placed.keyframes)
-    if count < 2 or any(not phase.start <= at.get(i, inf) <= phase.end for i in range(count)):
-        return
+    first, last = phase.start - ON_TIME_S, phase.end + ON_TIME_S
+    if count < 2 or any(not first <= known.get(i, inf) <= last for i in range(count)):
+        return  # the order of its keyframes refuses the second
+    at = {i: min(max(known[i], phase.start), phase.end) for i in range(count)}
     lost = [(0.0, phase.start)]
     for stretch in _stretches(placed):
         legs = _legs(flight, placed, at, stretch)

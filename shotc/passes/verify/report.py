@@ -105,6 +105,7 @@ RULES = {
     "direction between keyframes": Rule("V045", help=REPLAN),
     "direction off its aim": Rule("V045", help=REPLAN),
     "body off its camera": Rule("V045", help=REPLAN),
+    "turn of a free body": Rule("V045", help=REPLAN),
     "shots out of order": Rule("V015", help=REPLAN),
     PACE: Rule("V065", help=REPLAN),
     **dict.fromkeys((BETWEEN, BETWEEN_SHOTS, WAY, WAITED, LATE, UNJUDGED), Rule("V066", help=REPLAN)),

@@ -99,6 +99,14 @@ def test_the_flight_of_another_mission_is_refused(data: bytes, name: str) -> Non
     assert code in codes(resealed(document))
 
 
+def test_a_free_body_does_not_follow_its_camera(data: bytes) -> None:
+    document = json.loads(variant("home: [0, -60, 0]}", "home: [0, -60, 0], body: free}"))
+    assert codes(resealed(document)) == set()
+    flight_of(document, data)
+    report = api.verify_plan(resealed(document), "plan.json")
+    assert any("turn of a free body of shot `round`" in d.message for d in report.diagnostics)
+
+
 @pytest.mark.parametrize(
     "name", few(["the other way round", "a rise to 15 m", "an orbit of -40 deg"], QUICK[:1])
 )

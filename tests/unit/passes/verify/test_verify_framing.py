@@ -13,7 +13,7 @@ from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import box
 from shotc.ir.mission import Zone
 from shotc.ir.obstacle_mesh import obstacle_mesh
-from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
+from shotc.ir.path import BODY_YAW, CAM_YAW, HFOV, PathDeviation
 from shotc.ir.promise import Promise
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify import Verify
@@ -28,8 +28,7 @@ from tests.support.verdicts import CONTEXT, claim, codes, verdict_on
 
 
 def test_framing_promises() -> None:
-    aside = shifted(CAM_YAW, radians(32))
-    assert {"V019", "V020"} <= set(codes(aside))
+    assert {"V019", "V020"} <= set(codes(aside(32)))
     away = shifted(CAM_YAW, pi * 0.9)
     found = {d.code: d for d in verdict_on(away).diagnostics}
     assert "behind the camera" in found["V020"].message
@@ -68,8 +67,14 @@ def test_whole_in_frame_between_samples() -> None:
         assert found.method == method
 
 
+def aside(degrees: float) -> TrajectoryIR:
+    """The sample plan, turned aside all the time, body and camera."""
+    by = radians(degrees)
+    return with_ctrl(lambda c: c.__setitem__((..., [CAM_YAW, BODY_YAW]), c[..., [CAM_YAW, BODY_YAW]] + by))
+
+
 def test_without_promises_losses_are_warnings() -> None:
-    ir = with_mission(shifted(CAM_YAW, radians(32)), shots=(replace(MISSION.shots[0], promise=Promise()),))
+    ir = with_mission(aside(32), shots=(replace(MISSION.shots[0], promise=Promise()),))
     outcome = Verify().run(ir, CONTEXT)
     assert [d.code for d in outcome.diagnostics] == ["V030", "V032"]
     assert outcome.value is not None
@@ -254,18 +259,17 @@ def test_a_range_to_paste_holds_for_both_ends() -> None:
 
 @pytest.mark.long
 def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
-    aside = shifted(CAM_YAW, radians(3))
-    (found,) = promising(Promise(screen_error=0.05), aside)
+    off = aside(3)
+    (found,) = promising(Promise(screen_error=0.05), off)
     assert found.message == (
         "tower is 0.07339 of half a frame off its place on screen in shot `half`, 0.05 is promised at most"
     )
     assert found.help == "promise `screen_error: 0.0734`, or turn the camera less there"
-    assert promising(Promise(screen_error=0.0734), aside) == []
+    assert promising(Promise(screen_error=0.0734), off) == []
 
 
 def test_a_target_that_no_frame_shows_whole_has_no_promise_to_paste() -> None:
-    aside = shifted(CAM_YAW, radians(32))
-    found, off_its_place = promising(Promise(in_frame=1.0), aside)
+    found, off_its_place = promising(Promise(in_frame=1.0), aside(32))
     assert off_its_place.code == "V032"
     assert found.message == "tower is whole in 0 % of the frames of shot `half`, 100 % is promised"
     assert found.help == "film from farther away or through a wider lens where the target is cropped"
@@ -282,8 +286,7 @@ def test_a_place_on_screen_is_held_in_the_frames_that_have_one() -> None:
     (span,) = PLAN.drones[0].framing
     middle = 0.5 * (span.start + span.end)
     free = replace(span, start=middle, reference=None)
-    aside = shifted(CAM_YAW, radians(3))
-    found = claim(with_track(aside, framing=(replace(span, end=middle), free)), "tower screen error")
+    found = claim(with_track(aside(3), framing=(replace(span, end=middle), free)), "tower screen error")
     assert found.worst == pytest.approx(np.tan(radians(3)) / np.tan(radians(35)), rel=0.03)
     assert found.time is not None
     assert span.start <= found.time <= middle

@@ -77,6 +77,13 @@ def test_a_hold_lasts_as_long_as_it_is_asked_for(hold: float, holds: bool, durat
     assert claim(ir, BETWEEN).holds is holds
 
 
+def test_a_keyframe_a_nanosecond_outside_its_shot_hides_no_lost_time() -> None:
+    slow = stretched(TRACK, SHOT, 8.0)
+    first, *others = slow.keyframes
+    early = replace(slow, keyframes=(replace(first, time=first.time - 1e-9), *others))
+    assert not claim(free(early), BETWEEN).holds
+
+
 def test_a_shot_with_a_duration_may_be_slow() -> None:
     assert claim(free(stretched(TRACK, SHOT, 8.0), timing=Timing(duration=240.0)), BETWEEN).holds
 
