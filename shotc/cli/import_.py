@@ -16,8 +16,7 @@ from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
 from shotc.importers.cameras.takes import ImportOptions
 from shotc.importers.flights.endings import LARGEST_CLOCKED_BYTES, suffix_of
-from shotc.importers.formats import FORMATS, SHOWS, WHAT
-from shotc.importers.names import safe
+from shotc.importers.words import CAMERA_FORMATS, FORMATS, SHOW_FORMAT, safe_name
 from shotc.importers.xml_tree import LARGEST_BYTES
 from shotc.ir.source import KeptFiles
 from shotc.output import write
@@ -97,11 +96,11 @@ def import_(
         ("--fps", fps is not None, ("blender-camera",)),
         ("--ground", ground is not None, ("kml", "qgc", "litchi")),
         ("--times", times, ("kml", "blender-camera")),
-        ("--every", every, tuple(WHAT)),
+        ("--every", every, tuple(CAMERA_FORMATS)),
     ):
         if given and format not in those:
             raise typer.BadParameter(f"it is for {', '.join(those)}", param_hint=option)
-    if format == SHOWS:
+    if format == SHOW_FORMAT:
         _import_show(file, output, strict=strict)
         return
     options = ImportOptions(every=every, times=times, fps=fps, ground=ground)
@@ -123,7 +122,7 @@ def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
         raise typer.BadParameter("a show takes files beside it: name FILE, and the mission", param_hint="-o")
     data = _read(file, LARGEST_CLOCKED_BYTES)
     there = _inside(Path(file), output.parent)
-    named = there or f"{safe(Path(file).stem, 'show')}{suffix_of(file)}"
+    named = there or f"{safe_name(Path(file).stem, 'show')}{suffix_of(file)}"
     show = imported_show(data, file, named, strict=strict)
     pads = () if show.pads is None else (show.pads,)
     files = KeptFiles(dict(pads), ((named, ""),), {})

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 from shotc.importers.notes import plain
-from shotc.importers.remedies import AGAIN, CUT
+from shotc.importers.words import CUT_IN_TWO, EXPORT_AGAIN
 
 MAGIC = b"PK"
 BROKEN = (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error)
@@ -34,7 +34,7 @@ def member(data: bytes, matches: Callable[[str], bool], what: str, most: int) ->
     most : largest size of the archive, and of the member, bytes
     """
     if len(data) > most:
-        return ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
+        return ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT_IN_TWO)
     try:
         with ZipFile(BytesIO(data)) as archive:
             entry = next((i for i in archive.infolist() if matches(i.filename)), None)
@@ -46,8 +46,8 @@ def member(data: bytes, matches: Callable[[str], bool], what: str, most: int) ->
             with archive.open(entry) as stream:
                 inside = stream.read(most + 1)
     except BROKEN as fault:
-        return ArchiveFault(f"it is a broken archive: {fault}", AGAIN)
-    large = ArchiveFault(f"its document is larger than {most / 1e6:.0f} MB", CUT)
+        return ArchiveFault(f"it is a broken archive: {fault}", EXPORT_AGAIN)
+    large = ArchiveFault(f"its document is larger than {most / 1e6:.0f} MB", CUT_IN_TWO)
     return large if len(inside) > most else inside
 
 
@@ -64,7 +64,7 @@ class Archive:
         self._members: dict[str, ZipInfo] = {}
         self.fault: ArchiveFault | None = None
         if len(data) > most:
-            self.fault = ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
+            self.fault = ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT_IN_TWO)
             return
         try:
             self._zip = ZipFile(BytesIO(data))
@@ -75,7 +75,7 @@ class Archive:
     def member(self, name: str) -> bytes | ArchiveFault:
         """Return the member with this name, or a text that says why there is none."""
         if self.fault is not None or self._zip is None:
-            return self.fault or ArchiveFault("it is no archive", AGAIN)
+            return self.fault or ArchiveFault("it is no archive", EXPORT_AGAIN)
         entry = self._members.get(normpath(name))
         if entry is None:
             what = f"`{plain(name, 60)}`"
@@ -89,7 +89,7 @@ class Archive:
             return _broken(fault)
         self._left -= len(inside)
         if len(inside) > self._most or self._left < 0:
-            return ArchiveFault(f"its document is larger than {self._most / 1e6:.0f} MB", CUT)
+            return ArchiveFault(f"its document is larger than {self._most / 1e6:.0f} MB", CUT_IN_TWO)
         return inside
 
 
@@ -101,7 +101,7 @@ def members(
     most : largest size of the archive, and of all members together, bytes
     """
     if len(data) > most:
-        yield ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT)
+        yield ArchiveFault(f"the file is larger than {most / 1e6:.0f} MB", CUT_IN_TWO)
         return
     left = most
     try:
@@ -116,7 +116,7 @@ def members(
                     inside = stream.read(left + 1)
                 left -= len(inside)
                 if left < 0:
-                    yield ArchiveFault(f"what is in it is larger than {most / 1e6:.0f} MB", CUT)
+                    yield ArchiveFault(f"what is in it is larger than {most / 1e6:.0f} MB", CUT_IN_TWO)
                     return
                 yield entry.filename, inside
     except BROKEN as fault:
@@ -124,4 +124,4 @@ def members(
 
 
 def _broken(fault: BaseException) -> ArchiveFault:
-    return ArchiveFault(f"it is a broken archive: {plain(str(fault), 80)}", AGAIN)
+    return ArchiveFault(f"it is a broken archive: {plain(str(fault), 80)}", EXPORT_AGAIN)

@@ -10,12 +10,11 @@ from shotc.diag.registry import has_errors
 from shotc.importers.cameras import blender, kml, litchi, qgc
 from shotc.importers.cameras.takes import ImportedTakes, ImportOptions, Refused
 from shotc.importers.cameras.write import written
-from shotc.importers.formats import WHAT
 from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, assumption_diagnostics, label
-from shotc.importers.remedies import CUT, into
+from shotc.importers.words import CAMERA_FORMATS, CUT_IN_TWO, cut_into
 from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, readable_text
 from shotc.source.file import SourceFile, Span
 
@@ -67,14 +66,14 @@ def _import_cameras(format: str, data: bytes, name: str, options: ImportOptions,
     notes = Notes()
     if len(data) > LARGEST_BYTES:
         footage: ImportedTakes | Refused = Refused(
-            "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START, CUT
+            "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START, CUT_IN_TWO
         )
         text = ""
     else:
         text, footage = _footage(format, data, name, options, notes)
     sources = {name: SourceFile(name, text)}
     if isinstance(footage, ImportedTakes):
-        mission_text = written(PurePath(name).stem, WHAT[format], footage, options, notes)
+        mission_text = written(PurePath(name).stem, CAMERA_FORMATS[format], footage, options, notes)
         if mission_text is not None:
             said = assumption_diagnostics(name, notes, strict=strict)
             result = None if has_errors(said) else mission_text.text
@@ -133,7 +132,11 @@ def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
             message = f"`{name}` cannot be read: it has {len(elements)} `{tag}`; at most {most} are read"
             return Imported(
                 None,
-                (Diagnostic("I001", message, (label(name, elements[most]),), help=into(most, f"`{tag}`")),),
+                (
+                    Diagnostic(
+                        "I001", message, (label(name, elements[most]),), help=cut_into(most, f"`{tag}`")
+                    ),
+                ),
                 sources,
             )
     notes = Notes()

@@ -24,8 +24,8 @@ from shotc.importers.flights.endings import SHOW, TABLES, suffix_of
 from shotc.importers.flights.points import Waypoints
 from shotc.importers.flights.read import Found, Read, read
 from shotc.importers.mission import Imported
-from shotc.importers.names import safe
 from shotc.importers.notes import Notes, assumption_diagnostics, label
+from shotc.importers.words import safe_name
 from shotc.importers.xml_tree import Node
 from shotc.rounding import at_most, down, nearer_than, plain
 from shotc.source.file import SourceFile
@@ -85,7 +85,7 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
         failed = Diagnostic(show.code, text, (label(result.file, show.node),), (), show.help)
         return ImportedShow(Imported(None, (failed,), sources), None)
     notes = Notes()
-    stem = safe(PurePath(file).stem, "show")
+    stem = safe_name(PurePath(file).stem, "show")
     pads = _pads(show.starts, f"{stem}-pads.csv", notes)
     text = _written(stem, file, show, (pads, _separation(show, notes)), notes)
     said = assumption_diagnostics(name, notes, strict=strict)

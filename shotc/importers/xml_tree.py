@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from shotc.importers.remedies import AGAIN, CUT
+from shotc.importers.words import CUT_IN_TWO, EXPORT_AGAIN
 from shotc.source.xml import StopParsing, feed
 
 LARGEST_BYTES = 4_000_000  # bytes
@@ -68,11 +68,11 @@ def readable_text(data: bytes) -> str:
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, because its entities could grow without bound."""
     if len(data) > LARGEST_BYTES:
-        return XmlFault(f"the file is larger than {LARGEST_BYTES / 1e6:.0f} MB", CUT)
+        return XmlFault(f"the file is larger than {LARGEST_BYTES / 1e6:.0f} MB", CUT_IN_TWO)
     reader = _Reader()
     wrong = feed(data.removeprefix(BOM_UTF8), reader)  # expat would count the mark as a column
     if wrong is not None:
-        help_ = f"correct it there, or {AGAIN}"
+        help_ = f"correct it there, or {EXPORT_AGAIN}"
         return XmlFault(f"it is no XML: {wrong.reason}", help_, wrong.line, wrong.column)
     if reader.fault is not None:
         return reader.fault
@@ -97,7 +97,7 @@ class _Reader:
         node = Node(tag, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, attributes)
         self._count += 1
         if self._count > MOST_NODES or len(self._open) >= DEEPEST_LEVEL:
-            self._stop("it has too many elements, or too deep ones", CUT)
+            self._stop("it has too many elements, or too deep ones", CUT_IN_TWO)
         if self._open:
             self._open[-1].children.append(node)
         else:

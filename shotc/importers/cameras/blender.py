@@ -23,7 +23,7 @@ from shotc.importers.cameras.takes import (
     Take,
 )
 from shotc.importers.notes import Notes
-from shotc.importers.remedies import into
+from shotc.importers.words import cut_into
 
 USUAL_FPS = 24.0
 USUAL_LENS_MM, USUAL_SENSOR_MM = 50.0, 36.0  # millimetres; the values of a new camera in Blender
@@ -61,7 +61,7 @@ def footage(text: str, options: ImportOptions, notes: Notes) -> ImportedTakes | 
         return Refused("I002", message, table.node, f"begin it with a line such as `{EXAMPLE}`")
     if len(table.rows) > MOST_CAMERAS:
         message = f"it has {len(table.rows)} frames; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, table.rows[MOST_CAMERAS].node, into(MOST_CAMERAS, "frames"))
+        return Refused("I001", message, table.rows[MOST_CAMERAS].node, cut_into(MOST_CAMERAS, "frames"))
     cameras = _cameras(table, columns, options, notes)
     return ImportedTakes(table.node, without_far([Take("", table.node, tuple(cameras))], notes))
 

@@ -32,7 +32,7 @@ from shotc.importers.cameras.takes import (
     Take,
 )
 from shotc.importers.notes import Notes, plain
-from shotc.importers.remedies import into
+from shotc.importers.words import cut_into
 from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
 
@@ -87,7 +87,7 @@ def footage(root: Node, options: ImportOptions, notes: Notes) -> ImportedTakes |
     views = [view for _, some in toured for view in some]
     if len(views) > MOST_CAMERAS:
         message = f"it has {len(views)} cameras; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, views[MOST_CAMERAS].node, into(MOST_CAMERAS, "cameras"))
+        return Refused("I001", message, views[MOST_CAMERAS].node, cut_into(MOST_CAMERAS, "cameras"))
     if not views:
         return Refused("I003", "it holds no camera that says where it is", root, RECORD)
     _lens(views, notes)

@@ -19,7 +19,7 @@ from shotc.importers.cameras.takes import (
     recorded,
 )
 from shotc.importers.notes import Notes
-from shotc.importers.remedies import into
+from shotc.importers.words import cut_into
 from shotc.ir.mission import GeoOrigin
 
 EXAMPLE = "latitude,longitude,altitude(m),heading(deg),...,gimbalmode,gimbalpitchangle,..."
@@ -39,7 +39,7 @@ def footage(text: str, options: ImportOptions, notes: Notes) -> ImportedTakes | 
         return table
     if len(table.rows) > MOST_CAMERAS:
         message = f"it has {len(table.rows)} waypoints; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, table.rows[MOST_CAMERAS].node, into(MOST_CAMERAS, "waypoints"))
+        return Refused("I001", message, table.rows[MOST_CAMERAS].node, cut_into(MOST_CAMERAS, "waypoints"))
     rows = [row for row in table.rows if _is_placed(row, notes)]
     if not rows:
         return Refused("I003", "it holds no waypoint that says where it is", table.node, PLACES)

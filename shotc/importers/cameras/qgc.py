@@ -34,7 +34,7 @@ from shotc.importers.cameras.takes import (
     recorded,
 )
 from shotc.importers.notes import Notes, plain
-from shotc.importers.remedies import AGAIN, into
+from shotc.importers.words import EXPORT_AGAIN, cut_into
 from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 from shotc.source.file import Span
@@ -102,7 +102,10 @@ def opened(data: bytes, name: str) -> Opened | Refused:
     if document.faults:
         fault = document.faults[0]
         return Refused(
-            "I001", f"it is no JSON: {fault.message}", _node(fault.span), f"correct it there, or {AGAIN}"
+            "I001",
+            f"it is no JSON: {fault.message}",
+            _node(fault.span),
+            f"correct it there, or {EXPORT_AGAIN}",
         )
     mission = document.root.get("mission") if isinstance(document.root, dict) else None
     listed = mission.get("items") if isinstance(mission, dict) else None
@@ -123,7 +126,10 @@ def footage(data: bytes, name: str, options: ImportOptions, notes: Notes) -> Imp
     if len(listed) > MOST_CAMERAS:
         message = f"it has {len(listed)} items; at most {MOST_CAMERAS} are read"
         return Refused(
-            "I001", message, node_at(document, "mission", "items", MOST_CAMERAS), into(MOST_CAMERAS, "items")
+            "I001",
+            message,
+            node_at(document, "mission", "items", MOST_CAMERAS),
+            cut_into(MOST_CAMERAS, "items"),
         )
     items = list(_items(document, listed, notes))
     waypoints = [item for item in items if item.command in (WAYPOINT, SPLINE)]

@@ -10,8 +10,8 @@ from shotc.geom.focal import focal_length
 from shotc.importers.cameras.pace import too_fast
 from shotc.importers.cameras.takes import ImportedCamera, ImportedTakes, ImportOptions, Take
 from shotc.importers.cameras.thin import PICTURE_ERROR_HALF_FRAMES, thinned
-from shotc.importers.names import safe
 from shotc.importers.notes import Notes
+from shotc.importers.words import safe_name
 from shotc.spec.presets import PRESETS
 
 MODEL = "pro"
@@ -67,7 +67,7 @@ def written(
             "of the file's."
         )
     said = {f"# {note.comment}": None for note in notes.assumptions}
-    body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
+    body = ["shotc: 1", f"mission: {safe_name(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
     return CameraMission("\n".join([*head, *said, *body, ""]), len(drawn), counts[1], counts[0])
 
 
@@ -133,7 +133,7 @@ def _focal(hfov: float, rounded: Callable[[float], int]) -> str:
 
 def _id(takes: list[Take], i: int) -> str:
     """Return a shot's id: its take's name, with a number if another take has the same name."""
-    names = [safe(take.name, "take") for take in takes]
+    names = [safe_name(take.name, "take") for take in takes]
     return names[i] if names.count(names[i]) == 1 else f"{names[i]}-{names[: i + 1].count(names[i])}"
 
 

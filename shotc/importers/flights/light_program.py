@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from shotc.importers.flights.points import BROKEN, refuse
-from shotc.importers.remedies import AGAIN
+from shotc.importers.words import EXPORT_AGAIN
 from shotc.importers.xml_tree import Node
 
 STEP_S = 0.02
@@ -127,4 +127,4 @@ class _Player:
                 self._refuse(f"has a time of more than 28 bits at byte {self._at - 1}")
 
     def _refuse(self, why: str) -> None:
-        refuse(BROKEN, f"`{self._where}` {why}", WHOLE, AGAIN)
+        refuse(BROKEN, f"`{self._where}` {why}", WHOLE, EXPORT_AGAIN)

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple, NoReturn
 from shotc.importers.cameras.places import is_place, number
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.notes import plain
-from shotc.importers.remedies import into
+from shotc.importers.words import cut_into
 from shotc.importers.xml_tree import Node
 
 Level = Literal["home", "sea", "ground"]
@@ -127,7 +127,7 @@ def checked(file: Waypoints) -> Waypoints:
             UNREADABLE,
             f"it has {len(points)} waypoints; at most {MOST_POINTS} are read",
             file.node,
-            into(MOST_POINTS, "waypoints"),
+            cut_into(MOST_POINTS, "waypoints"),
         )
     other = next((p for p in points if p.level != points[0].level), None)
     if other is not None:

@@ -9,7 +9,7 @@ from shotc.importers.flights import items, litchi, skyc, wpml, zipped
 from shotc.importers.flights.endings import SHOW, TABLE, TABLES, largest, suffix_of
 from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
 from shotc.importers.flights.rows import DroneRows, rows
-from shotc.importers.remedies import CUT
+from shotc.importers.words import CUT_IN_TWO
 from shotc.importers.xml_tree import Node, readable_text
 
 Found = Waypoints | tuple[DroneRows, ...] | skyc.SkycShow
@@ -34,7 +34,7 @@ def read(data: bytes, name: str) -> Read:
     try:
         if len(data) > largest(name):
             message = f"the file is larger than {largest(name) / 1e6:.0f} MB"
-            refuse(UNREADABLE, message, Node("", 1, 1, wide=1), CUT)
+            refuse(UNREADABLE, message, Node("", 1, 1, wide=1), CUT_IN_TWO)
         if suffix == SHOW:
             return Read(name, skyc.show(data), "")
         if suffix == TABLES:

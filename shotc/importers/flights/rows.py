@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from shotc.importers.cameras.places import LARGEST_COORDINATE_M, number
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.notes import plain
-from shotc.importers.remedies import into
+from shotc.importers.words import cut_into
 from shotc.importers.xml_tree import Node
 
 Array = NDArray[np.float64]
@@ -123,7 +123,7 @@ def rows(text: str) -> tuple[DroneRows, ...]:
             UNREADABLE,
             f"it has {len(lines) - 1} rows; at most {MOST_ROWS} are read",
             start,
-            into(MOST_ROWS, "rows"),
+            cut_into(MOST_ROWS, "rows"),
         )
     numbered = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
     numbers, body = [i for i, _ in numbered], [line for _, line in numbered]

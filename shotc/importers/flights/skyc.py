@@ -24,7 +24,7 @@ from shotc.importers.flights.light_program import KeyedLight, keyed
 from shotc.importers.flights.points import BROKEN, FOREIGN, SWAPPED, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain
-from shotc.importers.remedies import AGAIN
+from shotc.importers.words import EXPORT_AGAIN
 from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 
@@ -105,7 +105,7 @@ def show(data: bytes, *, lit: bool = False) -> SkycShow:
     content = _part(archive, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
         said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
-        refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE, AGAIN)
+        refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE, EXPORT_AGAIN)
     drones = _inside(content, "swarm").get("drones")
     if not isinstance(drones, list) or not 0 < len(drones) <= MOST_DRONES:
         refuse(
@@ -152,7 +152,7 @@ def _part(archive: Archive, name: str) -> Any:
     try:
         return json.loads(data)
     except (ValueError, RecursionError) as fault:
-        refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE, AGAIN)
+        refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE, EXPORT_AGAIN)
 
 
 def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
@@ -172,13 +172,13 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
     settings = _resolved(archive, drone.get("settings")) if isinstance(drone, dict) else None
     element = f"swarm.drones[{index}]"
     if not isinstance(settings, dict):
-        refuse(BROKEN, f"`{element}` has no `settings`", WHOLE, AGAIN)
+        refuse(BROKEN, f"`{element}` has no `settings`", WHOLE, EXPORT_AGAIN)
     name = settings.get("name")
     name = name if isinstance(name, str) else str(index + 1)
     path = _resolved(archive, settings.get("trajectory"))
     where = f"{element}.settings.trajectory"
     if not isinstance(path, dict) or path.get("version") != 1:
-        refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE, AGAIN)
+        refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE, EXPORT_AGAIN)
     keys, begin = _keys(path, where)
     value = settings.get("home")
     home = value if _is_place(value) else keys[0].place
@@ -206,7 +206,7 @@ def _light(archive: Archive, settings: dict[str, Any], element: str, end: float)
     except ValueError:
         program = None
     if program is None:
-        refuse(BROKEN, f"`{where}` is no program of version 1", WHOLE, AGAIN)
+        refuse(BROKEN, f"`{where}` is no program of version 1", WHOLE, EXPORT_AGAIN)
     return keyed(program, f"{where}.data", end)
 
 

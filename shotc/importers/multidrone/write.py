@@ -14,8 +14,8 @@ from shotc.importers.multidrone.scene import drones, targets, world
 from shotc.importers.multidrone.shots import shot_of
 from shotc.importers.multidrone.targets import LEAD_S
 from shotc.importers.multidrone.timing import task_of, timed
-from shotc.importers.names import safe
 from shotc.importers.notes import Notes, plain
+from shotc.importers.words import safe_name
 from shotc.importers.xml_tree import Node
 
 HEAD = "# Imported from a mission of the MultiDrone project."
@@ -39,7 +39,7 @@ def written_mission(
     number = max(film.first + len(film.action.roles) - 1 for film in films)
     lines = [
         "shotc: 1",
-        f"mission: {safe(name)}",
+        f"mission: {safe_name(name)}",
         *world(frame),
         *targets(films, root, frame, notes),
         *drones(films, number, root, notes),
@@ -76,7 +76,7 @@ def _shot(film: FilmedAction, k: int, frame: CoordinateFrame, notes: Notes) -> l
     shot = shot_of(task)
     which = f"-{k + 1}" if len(film.action.roles) > 1 else ""
     fields = [
-        f"id: {film.id}{which}-{safe(role.kind).lower()}",
+        f"id: {film.id}{which}-{safe_name(role.kind).lower()}",
         f"kind: {shot.kind}",
         f"drone: cam{film.first + k}",
     ]
