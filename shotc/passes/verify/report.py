@@ -87,6 +87,7 @@ RULES = {
     "picture off its size": Rule("V064", help=REPLAN),
     "pictures of a file": Rule("V064", help=REPLAN),
     "error of transition": Rule("V015", help=REPLAN),
+    "transitions without a time": Rule("V015", help=REPLAN),
     "error of moment": Rule("V015", help=REPLAN),
     "error of wave": Rule("V015", help=REPLAN),
     "distance from keyframes": Rule("V016", help=REPLAN),

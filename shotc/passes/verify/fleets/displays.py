@@ -120,7 +120,10 @@ def _moments(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]
 
 
 def _transitions(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:
-    """Yield the claim that transitions between pictures take their given time."""
+    """Yield the claim that transitions between pictures take their given time, and how many have none.
+
+    Nothing judges how long a transition without a time takes.
+    """
     transitions: list[tuple[float, float, KeyPath]] = []
     for one, other in pairwise(frames):
         if one.picture != other.picture and other.picture in range(len(display.pictures)):
@@ -132,6 +135,10 @@ def _transitions(flight: FleetFlight, display: Display, frames: Sequence[FrameTi
         off, time, path = max(transitions, key=lambda item: item[0])
         limit = Limit("error of transition", ON_TIME_S, "s", path, shot=display.id)
         yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
+    free = float(sum(p.transition is None and p.at is None for p in display.pictures[1:]))
+    if free:
+        limit = Limit("transitions without a time", free, "", (*display.path, "frames"), shot=display.id)
+        yield held(flight.fleet.name, limit, WorstValue(free, None, "exact"))
 
 
 def _waves(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) -> Iterator[Claim]:

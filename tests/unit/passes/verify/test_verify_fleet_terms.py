@@ -73,6 +73,16 @@ def test_a_transition_and_a_hold_are_no_shorter_and_a_transition_no_longer(by: f
     assert claim(moved, "lack of hold").worst == pytest.approx(max(by, 0.0))
 
 
+def test_transitions_that_nothing_judges_are_counted() -> None:
+    free = tuple(p._replace(transition=None) for p in display().pictures)
+    asked = mission(displays=(display()._replace(pictures=free),))
+    found = claim(
+        replace(SHOW, keyframes=replace(SHOW.keyframes, mission=asked)), "transitions without a time"
+    )
+    assert (found.worst, found.holds) == (len(free) - 1, True)
+    assert found.constraint not in {c.constraint for c in verdict_on(SHOW).certificate}
+
+
 @pytest.mark.parametrize(("moment", "off"), [(17.0, 1.0), (15.0, 1.0), (16.0, 0.0)])
 def test_a_picture_with_a_moment_is_there_then_and_neither_earlier_nor_later(
     moment: float, off: float
