@@ -209,7 +209,7 @@ def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> l
     """Return the turn on the spot from one pose to another; empty where they are equal."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
-    if turn < SAME_ANGLE_RAD and np.array_equal(a, b):
+    if turn < SAME_ANGLE_RAD and np.linalg.norm(b - a) <= ROUNDING_M:
         return []
     breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE_RAD)])
     curve = _with_angles(drone, Piecewise(breaks, np.linspace(a, b, 6)[None]), start, goal, free_end=free_end)
