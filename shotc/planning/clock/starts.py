@@ -45,6 +45,7 @@ LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
 """Seconds by which a start is put off, to find a motion or a transfer to it."""
 ROUNDING_S = 1e-6  # seconds
 TURN_TRIES = 3  # departures that are tried until the turn before them is known
+SPARE_SHARE = 0.05  # of a turn's time, by which the next departure is later: another one has another turn
 SLIGHT_M = 0.02  # metres, tolerance of a deviation
 SOON_S, WHOLE_S = 40.0, 1.0
 """Longest delay of a start for a fence, and spacing of the candidates, seconds."""
@@ -253,7 +254,8 @@ def without_stop(
             film = cost(camera_task, (leg.start, leg.end), leg.curve, reached.shot.leg.curve)
             return reached if (off <= SLIGHT_M if placed else film.little) else None
         # The turn towards the first pose takes that long.
-        departure = departure._replace(time=departure.time + reached.late + ROUNDING_S)
+        later_by = (1.0 + SPARE_SHARE) * reached.late + ROUNDING_S
+        departure = departure._replace(time=departure.time + later_by)
     return None
 
 
