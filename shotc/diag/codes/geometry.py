@@ -243,7 +243,8 @@ CODES: tuple[CodeInfo, ...] = (
         "the altitude of a shot counts from the foot of its target, not from z = 0",
         "The `altitude` of a shot with a target counts from the target's foot at that moment: a roof is "
         "filmed from above the roof, a cyclist on a climb from above the road. Up to version 0.1 it "
-        "counted from the plane z = 0. If the two differ, this warning gives both. Write `altitude: "
+        "counted from the plane z = 0. If the two differ, this warning gives both. A mission with terrain, "
+        "which version 0.1 did not have, gets no warning. Write `altitude: "
         "{above: target, height: ...}` to say that the foot is meant, or `{above: origin, height: ...}` "
         "for z, or `{above: ground, height: ...}` for the height over the ground below the camera.",
         ("altitude: {above: target, height: 12}", "altitude: 12"),

@@ -44,6 +44,14 @@ def ground(x: float, y: float) -> float:
     return float(under(relief(), np.array([[x, y, 0.0]]))[0])
 
 
+def test_an_altitude_over_terrain_needs_no_reference(folder):
+    """Each shot over a hill got the warning of version 0.1, which had no terrain."""
+    found, told = resolved(TEXT.replace("{above: target, height: 25}", "25"), folder)
+    assert told == []
+    assert found is not None
+    assert found.shots[0].keyframes[0].at[2] == pytest.approx(ground(120, 60) + 25.0)
+
+
 def test_what_stands_stands_on_the_terrain(folder):
     found = mission(folder)
     assert found.drone("cam").home == pytest.approx((0.0, 0.0, ground(0, 0)))
