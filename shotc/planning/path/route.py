@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from heapq import heappop, heappush
-from math import ceil, pi
+from math import ceil, inf, pi
 
 import numpy as np
 
@@ -29,6 +29,7 @@ NODE_MARGIN_M = 2.4 * MARGIN_M  # nodes lie outside of the prisms against which 
 ROOMY_RATIO = 10.0  # factor of these margins where there is free space for it
 DETOUR_RATIO = 1.15  # largest ratio of lengths between a route with this factor and one without
 SAME_PLACE_M = 1e-6  # metres
+BOX_M = 1e-3  # metres by which the box about a footprint is larger
 NARROW_SHARES = (0.2, 0.05)  # shares of these margins for narrow gaps, tried in turn
 CLIMB_PRICE = 0.3  # extra length per metre of climb or descent
 OVERFLIGHT_PRICE = 0.3  # extra length per metre above an obstacle
@@ -68,8 +69,9 @@ def _round_solids(space: FreeSpace, first: Mask, start: Array, end: Array) -> Ar
     grown = [_grow(o) for o in space.obstacles]
     near = _search(_RouteSearch(space, grown, 1.0), first, start, end)
     if near is not None:
-        roomy = _search(_RouteSearch(space, grown, ROOMY_RATIO), first, start, end)
-        if roomy is not None and length(roomy) <= DETOUR_RATIO * length(near):
+        longest = DETOUR_RATIO * length(near)
+        roomy = _search(_RouteSearch(space, grown, ROOMY_RATIO, longest), first, start, end)
+        if roomy is not None and length(roomy) <= longest:
             near = roomy
         return _level(space, near)
     for share in NARROW_SHARES:
@@ -86,11 +88,16 @@ def length(route: Array) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _RouteSearch:
-    """The input of a search; ``share`` is the share of the usual margins that it keeps."""
+    """The input of a search.
+
+    share : of the usual margins, which it keeps
+    longest : length of a route that is still of use, metres
+    """
 
     space: FreeSpace
     grown: list[_Grown]
     share: float
+    longest: float = inf
 
     def reach(self, j: int) -> float:
         """Return how far obstacle j is grown for the test of edges, metres."""
@@ -121,11 +128,13 @@ class _Graph:
         corners = [_nodes(scene, j, active, start, end) for j in active]
         nodes = np.concatenate([np.stack([start, end]), *corners])
         free = bounds_slack(scene.space, nodes) >= scene.share * MARGIN_M
+        free &= sum(np.linalg.norm(nodes - p, axis=1) for p in (start, end)) <= scene.longest
         for j, g in enumerate(scene.grown):
             free &= ~_inside(g, nodes, scene.reach(j))
         free[:2] = True
         self.nodes: Array = nodes[free]
         self.touched = np.zeros(len(scene.grown), dtype=bool)
+        self.footprints = [_footprint_box(g, scene.reach(j)) for j, g in enumerate(scene.grown)]
         self.from_start = [self._near_end(j, 0) for j in range(len(scene.grown))]
         self.to_end = [self._near_end(j, 1) for j in range(len(scene.grown))]
 
@@ -145,7 +154,9 @@ class _Graph:
             closed[i] = True
             if i == 1:
                 return self._trace(parent), self.touched
-            others = np.flatnonzero(~closed)
+            least = cost[i] + self._least_prices(i)
+            # An edge that cannot make the route cheaper is not tested: most lead to distant obstacles.
+            others = np.flatnonzero(~closed & (least < cost) & (least + ahead <= cost[1]))
             reach = cost[i] + self._prices(i, others)
             better = reach < cost[others]
             for k, value in zip(others[better], reach[better], strict=True):
@@ -159,17 +170,26 @@ class _Graph:
             path.append(int(parent[path[-1]]))
         return np.asarray(self.nodes[path[::-1]])
 
+    def _least_prices(self, i: int) -> Array:
+        """Return the prices of the edges from a node to all nodes if nothing is in the way, shape (N,)."""
+        step = self.nodes - self.nodes[i]
+        return np.asarray(np.linalg.norm(step, axis=1) + CLIMB_PRICE * np.abs(step[:, 2]))
+
     def _prices(self, i: int, others: IntArray) -> Array:
         a = np.broadcast_to(self.nodes[i], (len(others), 3))
         b = self.nodes[others]
         stride = np.linalg.norm(b - a, axis=1)
         price = stride + CLIMB_PRICE * np.abs(b[:, 2] - a[:, 2])
+        low, high = np.minimum(a, b)[:, :2], np.maximum(a, b)[:, :2]
         for j, g in enumerate(self.scene.grown):
-            enter, leave = _clip(g, a, b, self.scene.reach(j))
+            least, most = self.footprints[j]
+            near = np.flatnonzero(((high >= least) & (low <= most)).all(axis=1))
+            enter, leave = _clip(g, a[near], b[near], self.scene.reach(j))
             over = np.maximum(leave - enter, 0.0)
             if g.top < FAR_M:
-                price = price + OVERFLIGHT_PRICE * over * stride
-            hit = self._hits(j, a, b, enter, leave)
+                price[near] += OVERFLIGHT_PRICE * over * stride[near]
+            hit = np.zeros(len(others), dtype=bool)
+            hit[near] = self._hits(j, a[near], b[near], enter, leave)
             from_start, to_end = self.from_start[j], self.to_end[j]
             if i == 0 and from_start is not None:
                 hit = from_start[others]
@@ -234,6 +254,12 @@ def _corners(g: _Grown, growth: float) -> Array:
     x = (d * m[:, 1] - e * n[:, 1]) / det
     y = (n[:, 0] * e - m[:, 0] * d) / det
     return np.stack([x, y], axis=1)
+
+
+def _footprint_box(g: _Grown, growth: float) -> tuple[Array, Array]:
+    """Return the least and the largest x and y of a grown footprint, shapes (2,), metres."""
+    corners = _corners(g, growth)
+    return corners.min(axis=0) - BOX_M, corners.max(axis=0) + BOX_M
 
 
 def _nodes(scene: _RouteSearch, j: int, active: IntArray, start: Array, end: Array) -> Array:

@@ -15,6 +15,8 @@ from shotc.rounding import at_least, up
 
 PLAY_M = 0.02  # metres beyond what the solver finds that obstacles have to give way
 MOST_REPORTED = 5  # intervals of a shot that are listed
+PACED_BY_TARGET = ("chase", "lead", "lateral")
+"""Kinds whose target sets the pace: a longer shot is no slower, and a nearer camera swings round less."""
 SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 
@@ -64,7 +66,12 @@ def _room(mission: MissionIR, stretches: list[ClockDeviation]) -> str:
         if owner is not None:
             most = at_least(max(d.distance for d in stretches if d.cause == cause))
             moves.append(f"move the shot or {owner.words} by {most} m")
-    return ", and ".join(moves) or "give the shot more time, or the drone higher `limits`"
+    if moves:
+        return ", and ".join(moves)
+    paced = all(mission.shot(d.shot).kind in PACED_BY_TARGET for d in stretches)
+    return (
+        "film it from nearer" if paced else "give the shot more time"
+    ) + ", or give the drone higher `limits`"
 
 
 def stopped_on_clock(

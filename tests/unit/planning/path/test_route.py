@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.planning.free_space import FreeSpace, Obstacle, Wall, breaches
+from shotc.planning.path import route as route_module
 from shotc.planning.path.route import DETOUR_RATIO, find_route, length
 from tests.support.owners import owner
 
@@ -133,3 +134,26 @@ def test_every_leg_keeps_its_clearance(trees):
     assert route[:, 2].min() >= 2.6
     assert (route[0] == a).all()
     assert (route[-1] == b).all()
+
+
+def test_a_way_to_the_edge_of_a_wood_tests_few_edges(monkeypatch):
+    """Each edge was tested against all trees, also those that lead away: 24 such searches took minutes."""
+    rng = np.random.default_rng(4)
+    trees = [
+        Cylinder(
+            (x + rng.uniform(-2, 2), y + rng.uniform(-2, 2)), rng.uniform(1.2, 2), 0.0, rng.uniform(8, 14)
+        )
+        for y in (14.0, 23.0)
+        for x in range(-50, 60, 9)
+    ]
+    made, tested, clip = space(*trees, clearance=2.5), [0], route_module._clip
+
+    def counted(g, a, b, reach):
+        tested[0] += len(a)
+        return clip(g, a, b, reach)
+
+    monkeypatch.setattr(route_module, "_clip", counted)
+    route = way(made, (-30, -20, 3), (-19, 18.5, 3.8))
+    assert route is not None
+    assert length(route) == pytest.approx(41.303, abs=0.01)
+    assert tested[0] < 20_000  # it was 381,289
