@@ -93,7 +93,7 @@ HELD: tuple[CodeInfo, ...] = (
         (
             "a flight takes longer than the mission needs",
             "Where the mission leaves time free, a flight is about as fast as it can be. Verification estimates the least time of "
-            "each way from its shape and the limits. Between two keyframes a shot takes at most 1.5 times that and a second; a "
+            "each way from its shape and the limits. Between two keyframes a shot takes at most 1.5 times that and half a second; a "
             "shot with a duration is compared with its share of it, so a hold lasts as long as it is asked for. Between shots it "
             "is 3 times, 5 s and the turns, and the way is at most twice the straight line, 100 m, and 4 times the size of what "
             "stands. A drone waits for a `start`, for a shot of `after`, or while somebody is near where it would fly, and at "

@@ -18,6 +18,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.drone import Drone
+from shotc.ir.limits import Limits
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 
 NODES = 200
@@ -38,10 +39,13 @@ Select = Callable[[Array], Array]
 
 
 class _Group(NamedTuple):
-    """Channels with common limits; select : maps channels (M, 7) to the group's (M, d)."""
+    """Channels with common limits, of steps of all channels (M, 7).
+
+    select : the steps of the group, (M, d); rates : the largest rates along them, (M,)
+    """
 
     select: Select
-    rate: float
+    rates: Select
     acceleration: float
     jerk: float
 
@@ -91,20 +95,35 @@ def _groups(drone: Drone, share: float, smoother: float) -> tuple[_Group, ...]:
     push, rush = share * limits.usable_acceleration, share * limits.jerk / max(1.0, smoother)
     turn, swing = share * limits.yaw_acceleration, share * gimbal.acceleration
     zoom = lens.rate if lens is not None and lens.zooms else gimbal.rate
-    angles = _Group(lambda c: c[:, [CAM_PITCH]], share * gimbal.rate, swing, swing / ease)
+    angles = _Group(lambda c: c[:, [CAM_PITCH]], _always(share * gimbal.rate), swing, swing / ease)
+    upright = share * limits.climb, share * limits.descent
     return (
-        _Group(lambda c: c[:, :2], share * limits.slowest, push, rush),
-        _Group(lambda c: c[:, 2:3], share * min(limits.climb, limits.descent), push, rush),
-        _Group(lambda c: c[:, [BODY_YAW]], share * limits.yaw_rate, turn, turn / ease),
+        _Group(lambda c: c[:, :2], lambda c: share * _over_ground(limits, c), push, rush),
+        _Group(lambda c: c[:, 2:3], lambda c: np.where(c[:, 2] > 0.0, *upright), push, rush),
+        _Group(lambda c: c[:, [BODY_YAW]], _always(share * limits.yaw_rate), turn, turn / ease),
         angles._replace(select=lambda c: c[:, [CAM_YAW]] - c[:, [BODY_YAW]]),
         angles,
-        angles._replace(select=lambda c: c[:, [HFOV]], rate=share * zoom),
+        angles._replace(select=lambda c: c[:, [HFOV]], rates=_always(share * zoom)),
     )
+
+
+def _always(rate: float) -> Select:
+    return lambda c: np.full(len(c), rate)
+
+
+def _over_ground(limits: Limits, steps: Array) -> Array:
+    """Return the largest speeds over ground in the directions of steps, (M,), m/s, in the known wind."""
+    length = np.maximum(np.linalg.norm(steps[:, :2], axis=1), TINY)
+    east, north = limits.wind
+    along = (steps[:, 0] * east + steps[:, 1] * north) / length
+    across = (steps[:, 0] * north - steps[:, 1] * east) / length
+    return np.asarray(along + np.sqrt(limits.speed**2 - across**2))
 
 
 def _steps(at: Array, groups: tuple[_Group, ...]) -> Array:
     """Return the lengths of the steps between poses (M, 7) in seconds at the rate limits, shape (M - 1,)."""
-    moved = [np.linalg.norm(g.select(np.diff(at, axis=0)), axis=1) / g.rate for g in groups]
+    steps = np.diff(at, axis=0)
+    moved = [np.linalg.norm(g.select(steps), axis=1) / g.rates(steps) for g in groups]
     return np.asarray(np.linalg.norm(moved, axis=0))
 
 
@@ -123,11 +142,12 @@ def _speeds(at: Array, steps: Array, groups: tuple[_Group, ...]) -> Array:
     """Return the largest speeds u at poses (M, 7), at rest at both ends, shape (M,)."""
     way = np.concatenate([[0.0], np.cumsum(steps)])
     speed, along, rush = np.full(len(way), np.inf), np.full(len(steps), np.inf), np.full(len(steps), np.inf)
+    moved = np.diff(at, axis=0)
     for group in groups:
-        rate = group.select(np.diff(at, axis=0)) / steps[:, None]
+        rate, most = group.select(moved) / steps[:, None], group.rates(moved)
         size = np.maximum(np.linalg.norm(rate, axis=1), TINY)
         bend = np.linalg.norm(np.diff(rate, axis=0), axis=1) / (0.5 * (steps[1:] + steps[:-1]))
-        speed[1:], speed[:-1] = (np.minimum(part, group.rate / size) for part in (speed[1:], speed[:-1]))
+        speed[1:], speed[:-1] = (np.minimum(part, most / size) for part in (speed[1:], speed[:-1]))
         speed[1:-1] = np.minimum(speed[1:-1], np.sqrt(group.acceleration / np.maximum(bend, TINY)))
         along, rush = np.minimum(along, group.acceleration / size), np.minimum(rush, group.jerk / size)
     rushes = np.minimum(np.append(rush, rush[-1]), np.append(rush[0], rush))

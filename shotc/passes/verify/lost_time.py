@@ -36,7 +36,7 @@ SLOWER_RATIO = 1.5
 TRANSIT_RATIO = 3.0
 """The same between shots, where nobody films, and where turns and several legs take their time."""
 
-KEYFRAMES_S, TRANSITS_S = 1.0, 5.0
+KEYFRAMES_S, TRANSITS_S = 0.5, 5.0
 """Seconds beyond it: for the ends of a leg between two keyframes, and for the joints of legs on a transit."""
 
 DETOUR_RATIO, DETOUR_M, SIZES = 2.0, 100.0, 4.0
@@ -110,10 +110,12 @@ def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator
     lost = [(0.0, phase.start)]
     for stretch in _stretches(placed):
         legs = _legs(flight, placed, at, stretch)
-        least = sum(leg.least for leg in legs)
+        lasts, least = sum(leg.lasts for leg in legs), sum(leg.least for leg in legs)
         if not stretch.timed or least > 0.0:
-            scale = max(1.0, sum(leg.lasts for leg in legs) / least) if stretch.timed else 1.0
+            scale = max(1.0, lasts / least) if stretch.timed else 1.0
             lost += [(leg.lasts - SLOWER_RATIO * scale * leg.least, leg.start) for leg in legs]
+            # The constant of each of many short legs would add up.
+            lost.append((lasts - SLOWER_RATIO * scale * least, legs[0].start))
     worst, when = max(lost)
     limit = Limit(BETWEEN, KEYFRAMES_S, "s", placed.shot.path, shot=placed.shot.id)
     yield claim(flight, limit, WorstValue(worst, when, "sampled"))

@@ -27,6 +27,9 @@ AT_HOME_M = 1e-3
 LARGEST_M = 1e6
 """Largest value of a flight, metres or radians; up to it doubles resolve a nanometre."""
 
+LONGEST_S = 1e5
+"""Longest mission time, seconds, more than a day: flights are sampled at the output rate."""
+
 SHORTEST_S = 1e-5
 """Shortest piece, seconds; below it rounding dominates third derivatives."""
 
@@ -94,14 +97,9 @@ def first_few(faults: Iterator[str]) -> Iterator[str]:
 
 def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     curve, phases = track.curve, track.phases
-    if curve.ctrl.shape[2] != len(CHANNELS):
-        yield f"its curve has {curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
-        return
-    if np.abs(curve.ctrl).max() > LARGEST_M:
-        yield f"its curve reaches {np.abs(curve.ctrl).max():.3g}, beyond any flight"
-        return
-    if np.diff(curve.breaks).min() < SHORTEST_S:
-        yield f"a piece of its curve lasts only {np.diff(curve.breaks).min():.3g} s"
+    unusable = _unusable(curve)
+    if unusable:
+        yield unusable
         return
     seen = [k.time for k in track.keyframes] + [t for f in track.framing for t in (f.start, f.end)]
     if not all(map(isfinite, [t for p in phases for t in (p.start, p.end)] + seen)):
@@ -124,6 +122,18 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     references = (f.reference for f in track.framing if f.reference is not None)
     if any(joint_steps(reference, 0).sum(axis=0).max() > LIMIT_TOLERANCE for reference in references):
         yield "what is wanted of a target on screen jumps"
+
+
+def _unusable(curve: Piecewise) -> str:
+    """Return why a curve is that of no flight; empty where it may be."""
+    if curve.ctrl.shape[2] != len(CHANNELS):
+        return f"its curve has {curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
+    if np.abs(curve.ctrl).max() > LARGEST_M:
+        return f"its curve reaches {np.abs(curve.ctrl).max():.3g}, beyond any flight"
+    if curve.end > LONGEST_S:
+        return f"it lasts until {curve.end:.6g} s, longer than {LONGEST_S:g} s"
+    shortest = np.diff(curve.breaks).min()
+    return f"a piece of its curve lasts only {shortest:.3g} s" if shortest < SHORTEST_S else ""
 
 
 def gaps(phases: tuple[Phase, ...], start: float, end: float) -> Iterator[str]:

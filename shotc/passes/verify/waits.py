@@ -48,6 +48,9 @@ HERE_M = 1e-9
 STEP_S, WAITS_S = 0.5, 1.0
 """Seconds between samples of a flight, and between the waits that are tried."""
 
+MOST_TIMES = 2000
+"""Most of these times; an edited plan may last for years."""
+
 AFTER_S = 3.0
 """Seconds after a shot in which planning keeps its end clear."""
 
@@ -89,7 +92,7 @@ def _without_reason(flight: JudgedFlight, transfer: Transfer, waited: float) -> 
     if waited <= WAIT_S:
         return waited
     flown = _flown_at(flight, transfer, waited)
-    earlier = waited - np.arange(0.0, waited, WAITS_S)
+    earlier = waited - _spread(0.0, waited, WAITS_S)
     needed = next((waited - float(by) for by in earlier if not _meets(flight, flown, float(by))), waited)
     return waited - WAIT_RATIO * needed
 
@@ -110,10 +113,10 @@ def _flown_at(flight: JudgedFlight, transfer: Transfer, waited: float) -> _Flown
     curve = flight.track.curve
     phase = next((p for p in flight.track.phases if p.shot == transfer.shot and transfer.shot), None)
     end = transfer.end + waited if phase is None else phase.end + AFTER_S
-    own = np.arange(transfer.end, end, STEP_S)
+    own = _spread(transfer.end, end, STEP_S)
     times, left = own, transfer.end
     for low, high in transfer.moves[::-1]:
-        part = np.arange(low, high, STEP_S)
+        part = _spread(low, high, STEP_S)
         own, times = np.append(part, own), np.append(left - high + part, times)
         left -= high - low
     return _Flown(own, times, flying(curve, own))
@@ -164,7 +167,7 @@ def _begun(flight: JudgedFlight, shot: Shot, transfer: Transfer, ready: float) -
     mission, here = flight.mission, flight.track.curve(transfer.start)[:3]
     tracks = (mission.target(name).track for name in carriers(shot))
     first = max([ready, *(track.since for track in tracks if track is not None)])
-    for t in np.arange(first, transfer.end - FILM_S, WAITS_S):
+    for t in _spread(first, transfer.end - FILM_S, WAITS_S):
         begun = at_start(mission, shot, float(t))
         place = np.array(ideal_place(mission, begun, float(t), float(t)))
         if t - transfer.start >= SLOWER_RATIO * _straight(flight.drone.limits, place - here) + REACH_S:
@@ -174,6 +177,11 @@ def _begun(flight: JudgedFlight, shot: Shot, transfer: Transfer, ready: float) -
         first = max(first, transfer.end - FILM_S)
     limit = Limit(LATE, FILM_S, "s", (*shot.path, "timing"), shot=shot.id)
     return claim(flight, limit, WorstValue(transfer.end - first, transfer.end, "sampled"))
+
+
+def _spread(start: float, end: float, step: float) -> Array:
+    """Return times from a start on, before an end, at a step, or farther apart where these are too many."""
+    return np.arange(start, end, max(step, (end - start) / MOST_TIMES))
 
 
 def _straight(limits: Limits, way: Array) -> float:

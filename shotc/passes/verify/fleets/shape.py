@@ -20,7 +20,7 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit
 from shotc.passes.verify.fleets.flight import FleetFlight, of_drone
-from shotc.passes.verify.shape import AT_HOME_M, LARGEST_M, SHORTEST_S, first_few, gaps
+from shotc.passes.verify.shape import AT_HOME_M, LARGEST_M, LONGEST_S, SHORTEST_S, first_few, gaps
 
 
 def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
@@ -46,6 +46,9 @@ def _faults(mission: MissionIR, track: FleetTrajectory) -> Iterator[str]:
         return
     if not (np.isfinite(breaks).all() and np.isfinite(coef).all()) or np.abs(coef).max() > LARGEST_M:
         yield "its curves reach beyond any flight"
+        return
+    if breaks[-1] > LONGEST_S:
+        yield f"it lasts until {breaks[-1]:.6g} s, longer than {LONGEST_S:g} s"
         return
     if np.diff(breaks).min() < SHORTEST_S:
         yield f"a piece of its curves lasts {np.diff(breaks).min():.3g} s"

@@ -73,6 +73,13 @@ def test_a_transition_and_a_hold_are_no_shorter_and_a_transition_no_longer(by: f
     assert claim(moved, "lack of hold").worst == pytest.approx(max(by, 0.0))
 
 
+def test_a_flight_of_years_is_none() -> None:
+    track = SHOW.fleets[0]
+    slow = replace(SHOW, fleets=(replace(track, breaks=1e6 * track.breaks),))
+    (found,) = verdict_on(slow).diagnostics
+    assert "longer than 100000 s" in found.message
+
+
 def test_transitions_that_nothing_judges_are_counted() -> None:
     free = tuple(p._replace(transition=None) for p in display().pictures)
     asked = mission(displays=(display()._replace(pictures=free),))

@@ -11,7 +11,7 @@ from shotc.geom.track import Track
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Shot
 from shotc.ir.target import Target
-from shotc.ir.trajectory import TrajectoryIR
+from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.least_time import least_times
 from shotc.passes.verify.lost_time import BETWEEN, BETWEEN_SHOTS, WAY
 from shotc.passes.verify.waits import WAITED
@@ -53,6 +53,18 @@ def test_a_narrow_circle_is_as_slow_as_its_acceleration() -> None:
         path, (0.0, path.end), replace(DRONE, limits=DRONE.limits._replace(yaw_rate=99.0)), 1.0
     )
     assert flown.least[-1] > path.end / np.sqrt(CEILING.acceleration * 2.0)
+
+
+def test_up_and_down_and_with_the_wind_each_have_their_speed() -> None:
+    pose = POSE[1:]
+    up, down = (line((0.0, 0.0, a, *pose), (0.0, 0.0, b, *pose)) for a, b in ((10.0, 90.0), (90.0, 10.0)))
+    climb, descent = (least_times(path, (0.0, 80.0), DRONE, 1.0).least[-1] for path in (up, down))
+    assert climb == pytest.approx(s_curve_time(80.0, 4.0, 3.0, 8.0), rel=0.1)
+    assert descent == pytest.approx(s_curve_time(80.0, 3.0, 3.0, 8.0), rel=0.1)
+    windy = replace(DRONE, limits=DRONE.limits._replace(wind=(3.0, 0.0)))
+    path = line((0.0, 0.0, *POSE), (300.0, 0.0, *POSE))
+    flown = least_times(path, (0.0, 300.0), windy, 1.0).least[-1]
+    assert flown == pytest.approx(s_curve_time(300.0, 11.0, 3.0, 8.0), rel=0.1)
 
 
 def test_neither_a_slower_law_nor_rests_change_the_least_time() -> None:
@@ -117,14 +129,24 @@ def test_nobody_waits_without_a_reason(at: float) -> None:
     assert claim(free(waiting(TRACK, at, 2.9)), WAITED).holds
 
 
+@pytest.mark.parametrize("at", [0.0, 82.0])
+def test_a_wait_of_a_day_is_refused_like_any_other(at: float) -> None:
+    assert claim(passed(0.0, 20.0, waiting(TRACK, at, 9e4)), WAITED).worst > 8e4
+
+
+def test_a_flight_of_years_is_none() -> None:
+    (found,) = verdict_on(free(waiting(TRACK, 0.0, 1e9))).diagnostics
+    assert "lasts until 1e+09 s, longer than 100000 s" in found.message
+
+
 def test_a_start_of_the_mission_is_a_reason() -> None:
     late = waiting(TRACK, 0.0, 1000.0)
     assert claim(free(late, timing=Timing(start=1022.0)), WAITED).worst == 0.0
     assert claim(free(late, timing=Timing(after="other")), WAITED).worst > 900.0
 
 
-def passed(wait: float, until: float) -> TrajectoryIR:
-    """A flight that waits on its pad beside a walker, who leaves at ``until`` seconds at 5 m/s."""
+def passed(wait: float, until: float, track: DroneTrajectory | None = None) -> TrajectoryIR:
+    """A flight that waits on its pad beside a walker, who leaves at ``until`` seconds; or another one."""
     walker = Target(
         "walker",
         (3.0, -60.0, 0.9),
@@ -132,7 +154,7 @@ def passed(wait: float, until: float) -> TrajectoryIR:
         ("targets", "walker"),
         Track((0.0, until, until + 100.0), ((3.0, -60.0, 0.9), (3.0, -60.0, 0.9), (3.0, -560.0, 0.9))),
     )
-    ir = free(waiting(TRACK, 0.0, wait))
+    ir = free(track or waiting(TRACK, 0.0, wait))
     return replace(
         ir,
         keyframes=replace(
