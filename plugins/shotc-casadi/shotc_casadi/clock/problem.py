@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import Array, HalfSpaces, Near, near_at, viewpoint
+from shotc.plugin_api.refiner import Array, Drone, HalfSpaces, Mask, Near, near_at, viewpoint
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.picture import SUBJECT
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
@@ -130,33 +130,22 @@ def problem(
 
     The initial slack of ellipsoids is one unit each.
     """
-    limits = subject.drone.limits
     table = table_of(planes, len(breaks) - 1)
     count = table.shape[1]
-    windy = any(limits.wind)
+    wind = subject.drone.limits.wind
     sizes = Sizes(
         count,
         references.sight_lines.shape[1],
         references.bodies.shape[1],
         references.subjects.shape[1],
         (references.subjects.shape[2] - SUBJECT) // EXTENT_PARAMETERS,
-        windy,
+        any(wind),
     )
-    least = np.full(sizes.inputs, -inf)
-    least[sizes.moves :] = 0.0
-    if not sizes.subjects:
-        least[SLACK] = 0.0
-    speed, acceleration, jerk = (
-        (use.share * bound) ** 2 for bound in (limits.speed, limits.usable_acceleration, limits.jerk)
-    )
-    low = np.zeros(sizes.limits + count * CONTROL_POINTS + sizes.occluders + sizes.bodies)
-    low[:3] = -inf, -inf, -use.share * limits.descent
-    high = np.full_like(low, inf)
-    high[:3] = jerk, speed, use.share * limits.climb
+    held, driven = _row_bounds(subject.drone, sizes, use.share)
     rows = [references.sight_lines, references.bodies, references.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
-    if windy:
-        flat.append(np.tile(use.share * np.array(limits.wind), (len(breaks), 1)))
+    if sizes.windy:
+        flat.append(np.tile(use.share * np.array(wind), (len(breaks), 1)))
     moves = start[1][:, : sizes.moves]
     bare = ClockProblem(
         sizes,
@@ -165,11 +154,33 @@ def problem(
         start[0],
         np.column_stack([moves, np.ones((len(moves), sizes.inputs - sizes.moves))]),
         _bounds(subject, breaks, sizes, use),
-        least,
-        (np.full(3, -inf), np.array([speed, acceleration, 1.0])),
-        (low, high),
+        _least_inputs(sizes),
+        held,
+        driven,
     )
     return replace(bare, inputs=np.column_stack([moves, bare.units[:, sizes.moves :]]))
+
+
+def _least_inputs(sizes: Sizes) -> Array:
+    """Return the lower bound of each input: slacks are not negative."""
+    least = np.full(sizes.inputs, -inf)
+    least[sizes.moves :] = 0.0
+    if not sizes.subjects:
+        least[SLACK] = 0.0
+    return least
+
+
+def _row_bounds(drone: Drone, sizes: Sizes, share: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Return (lower, upper) of the rows held and driven of a stage; share : used share of the limits."""
+    limits = drone.limits
+    speed, acceleration, jerk = (
+        (share * bound) ** 2 for bound in (limits.speed, limits.usable_acceleration, limits.jerk)
+    )
+    low = np.zeros(sizes.limits + sizes.planes * CONTROL_POINTS + sizes.occluders + sizes.bodies)
+    low[:3] = -inf, -inf, -share * limits.descent
+    high = np.full_like(low, inf)
+    high[:3] = jerk, speed, share * limits.climb
+    return (np.full(3, -inf), np.array([speed, acceleration, 1.0])), (low, high)
 
 
 def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tuple[Array, Array]:
@@ -202,43 +213,78 @@ def _drawn_angles(pose: Near) -> Array:
     return np.array([*(a or 0.0 for a in preferred), *(0.0 if a is None else weight for a in preferred)])
 
 
+class _PlaceTerms(NamedTuple):
+    """What a motion is drawn to at the nodes, before weights are shared among stages.
+
+    ideal : places, W, metres, (N + 1, 3); place : weight of the distance from them, (N + 1,)
+    leash : how that weight grows with the squared distance, 1/m^2
+    angles : yaw and pitch, rad, and the weights of both, (N + 1, 4)
+    """
+
+    ideal: Array
+    place: Array
+    leash: float
+    angles: Array
+
+
+def _near_pose(
+    subject: ClockSubject,
+    pose: Near,
+    breaks: Array,
+    references: ClockReferences,
+    filmed: Mask,
+    usual: _PlaceTerms,
+) -> _PlaceTerms:
+    """Return the terms of a shot that stays near a pose while it is filmed (viewpoint Eq. 10)."""
+    drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
+    angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
+    length = np.append(np.diff(breaks), 0.0)
+    angles[:, 2:] *= _unit(references) * weights.SUBJECTS_WEIGHT * _shared(length)[:, None]
+    distance = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
+    share = viewpoint.NEAR_WEIGHT / np.maximum(distance, 1.0)
+    place = np.where(filmed, weights.SUBJECTS_WEIGHT * share**2, usual.place)
+    return _PlaceTerms(np.where(filmed[:, None], drawn, usual.ideal), place, 0.0, angles)
+
+
+def _turn_weights(subject: ClockSubject, references: ClockReferences, filmed: Mask) -> Array:
+    """Return the weights of the ray's derivatives at the nodes, shape (N + 1, 6)."""
+    if not references.watches:
+        return np.zeros((len(filmed), 6))
+    turn = np.array(weights.TURN_WEIGHTS)
+    free = references.placed and not subject.together
+    return np.where(
+        filmed[:, None],
+        turn * subject.placed.shot.smoother ** np.array(weights.TURN_ORDERS),
+        (0.0 if free else weights.UNFILMED_RAY_WEIGHT) * turn,
+    )
+
+
 def _parameters(subject: ClockSubject, breaks: Array, references: ClockReferences) -> Array:
     leg, n = subject.leg, len(breaks) - 1
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
     near, paid = 1.0 / references.usual**2, _unit(references)
     smoother = subject.placed.shot.smoother
-    binds, turn = _binds(subject, references), np.array(weights.TURN_WEIGHTS)
-    free = references.placed and not subject.together
-    turn = np.where(
-        filmed[:, None],
-        turn * smoother ** np.array(weights.TURN_ORDERS),
-        (0.0 if free else weights.UNFILMED_RAY_WEIGHT) * turn,
-    )
+    binds = _binds(subject, references)
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
     unit = weights.SUBJECTS_WEIGHT if subject.together else binds
-    pose, ideal, angles = subject.near, references.ideal, np.zeros((n + 1, 4))
-    place, leash = binds * near * np.ones(n + 1), near / weights.LEASH_SHARE**2
-    if pose is not None:  # viewpoint Eq. 10, as for the ideal
-        drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
-        angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
-        angles[:, 2:] *= paid * weights.SUBJECTS_WEIGHT * _shared(length)[:, None]
-        distance = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
-        share = viewpoint.NEAR_WEIGHT / np.maximum(distance, 1.0)
-        place = np.where(filmed, weights.SUBJECTS_WEIGHT * share**2, place)
-        ideal, leash = np.where(filmed[:, None], drawn, ideal), 0.0
+    kept = _PlaceTerms(
+        references.ideal, binds * near * np.ones(n + 1), near / weights.LEASH_SHARE**2, np.zeros((n + 1, 4))
+    )
+    if subject.near is not None:
+        kept = _near_pose(subject, subject.near, breaks, references, filmed, kept)
     values = {
         "length": length,
-        "ideal": ideal,
-        "place": place * _shared(np.where(filmed, 1.0, weights.UNFILMED_WEIGHT) * length),
-        "leash": np.full(n + 1, leash),
-        "drawn": angles,
+        "ideal": kept.ideal,
+        "place": kept.place * _shared(np.where(filmed, 1.0, weights.UNFILMED_WEIGHT) * length),
+        "leash": np.full(n + 1, kept.leash),
+        "drawn": kept.angles,
         "near": references.reach**-2.0,
         "target": references.target,
         "jerk": weights.JERK_WEIGHT
         * near
         * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN_WEIGHT),
-        "turn": turn if references.watches else np.zeros((n + 1, 6)),
+        "turn": _turn_weights(subject, references, filmed),
         "steep": steepest(subject, breaks),
         "free": np.where(filmed & references.watches, 0.0, UNFILMED_WEIGHT),
         "price": np.full(n + 1, weights.PITCH_WEIGHT / references.usual),
