@@ -16,19 +16,15 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.effects import Image
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
-from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
-from shotc.kinds.files import FileFault
 from shotc.planning.take_off import take_off_of
-from shotc.show.assignment import faults
 from shotc.show.assignment.beside import beside
 from shotc.show.assignment.director import Director
 from shotc.show.assignment.flashes import flashing
+from shotc.show.assignment.images import images_of
 from shotc.show.assignment.order import cast_of
 from shotc.show.assignment.song_length import song_faults
-from shotc.show.goals.footage import ImageFrames, read_frames
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +36,7 @@ class AssignGoals:
     def run(self, ir: GoalIR, ctx: PassContext) -> Outcome[ShowIR]:
         """Return the trajectories of all fleets, with goals and times for every drone."""
         mission = ir.keyframes.mission
-        images = _images_of(mission)
+        images = images_of(mission)
         if isinstance(images, list):
             return Outcome(None, tuple(images))
         directors: list[Director] = []
@@ -102,21 +98,3 @@ def _take_off(director: Director, flight: FleetTrajectory) -> list[tuple[str, fl
         (f"{name} s", up.end - director.waited),
         (f"{name} landing s", down.end - down.start),
     ]
-
-
-def _images_of(mission: MissionIR) -> dict[str, ImageFrames] | list[Diagnostic]:
-    """Return the frames of every image by name, or the faults of those that cannot be read."""
-    files = dict(mission.files)
-    frames_of: dict[str, ImageFrames] = {}
-    wrong: dict[str, Diagnostic] = {}
-    lights = max((len(fleet.pads) for fleet in mission.fleets), default=0)
-    for effect in (effect for display in mission.displays for effect in display.every_effect):
-        if not isinstance(effect.paint, Image) or effect.paint.file in {*frames_of, *wrong}:
-            continue
-        name = effect.paint.file
-        frames = read_frames(files[name], lights)
-        if isinstance(frames, FileFault):
-            wrong[name] = faults.bad_image(mission, effect, name, frames)
-        else:
-            frames_of[name] = frames
-    return list(wrong.values()) or frames_of

@@ -14,8 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
 from shotc.ir.effects import DisplayTime, Effect
-from shotc.ir.fleet import Colors, FrameTimes, Lights, Recorded
+from shotc.ir.fleet import Colors, FleetTrajectory, FrameTimes, Lights, Recorded
 from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display
@@ -38,13 +40,29 @@ class StandingFrame(NamedTuple):
     shown: FrameTimes
 
 
+class LitFrame(NamedTuple):
+    """A frame with its times, the positions of all drones, (n, 3), m, and the indices of the dark ones."""
+
+    shown: FrameTimes
+    places: Array
+    spare: tuple[int, ...]
+
+
 class _Stood(NamedTuple):
     """A picture of a display: its frames, its times, and those of the neighbouring pictures."""
 
     display: Display
     number: int
-    frames: tuple[StandingFrame, ...]
+    frames: tuple[LitFrame, ...]
     times: Times
+
+
+class _Stack(NamedTuple):
+    """The effects of a fleet: a look for each frame, in their order, and the layers on top of all."""
+
+    looks: tuple[Look, ...]
+    over: tuple[Layer, ...]
+    faults: tuple[Diagnostic, ...]
 
 
 class LightRow(NamedTuple):
@@ -95,44 +113,69 @@ def with_effects(
 ) -> tuple[Lights, list[Diagnostic]]:
     """Return the light programme with the effects of its displays, and diagnostics on them."""
     plain = Lights(np.array(list(rows)), np.stack([row.colors for row in rows.values()], axis=1))
-    names = dict.fromkeys(one.shown.display for one in standing)
-    displays = [mission.display(name) for name in names]
-    if not any(display.every_effect for display in displays):
+    frames = [LitFrame(one.shown, one.scene.places, one.scene.spare) for one in standing]
+    stack = _stacked(mission, frames, dark, images)
+    if stack is None:
         return plain, []
-    pictures = _pictures(displays, standing, dark)
+    number = {(s.display, s.picture, s.index): k for k, s in enumerate(one.shown for one in standing)}
+    shown = (None if row.of is None else row.of.shown for row in rows.values())
+    of = tuple(-1 if s is None else number[s.display, s.picture, s.index] for s in shown)
+    return replace(plain, looks=stack.looks, of=of, over=stack.over), list(stack.faults)
+
+
+def laid_out_again(mission: MissionIR, flight: FleetTrajectory, images: Images) -> FleetTrajectory:
+    """Return a flight with its effects over the places where its drones are while its frames stand.
+
+    Limits and the separation move the drones of an animation, and of a recorded flight, off their goals.
+    """
+    lights = flight.lights
+    if not lights.looks:
+        return flight
+    at = places(flight.breaks, flight.coef, np.array([shown.start for shown in flight.shown]))
+    frames = [
+        LitFrame(shown, at[:, k], look.spare)
+        for k, (shown, look) in enumerate(zip(flight.shown, lights.looks, strict=True))
+    ]
+    dark = (float(lights.times[0]), min(float(lights.times[-1]), flight.phases[-1].end))
+    stack = _stacked(mission, frames, dark, images)
+    assert stack is not None, "a fleet with looks has effects"
+    return replace(flight, lights=replace(lights, looks=stack.looks, over=stack.over))
+
+
+def _stacked(
+    mission: MissionIR, frames: Sequence[LitFrame], dark: tuple[float, float], images: Images
+) -> _Stack | None:
+    """Return the effects over the frames of a fleet; None if it has none."""
+    displays = [mission.display(name) for name in dict.fromkeys(one.shown.display for one in frames)]
+    if not any(display.every_effect for display in displays):
+        return None
+    pictures = _pictures(displays, frames, dark)
     faults_of_lights: list[Diagnostic] = []
     looks: list[Look] = []
-    number: dict[tuple[str, int, int], int] = {}
     over: list[Layer] = []
     for seed, picture in enumerate(pictures):
         layers, later = _of_picture(mission, picture, images, (seed, faults_of_lights))
         over += later
-        for one in picture.frames:
-            number[one.shown.display, one.shown.picture, one.shown.index] = len(looks)
-            looks.append(Look(layers, one.scene.spare))
+        looks += [Look(layers, one.spare) for one in picture.frames]
     for display in displays:
         over += _of_display(mission, display, pictures, images, faults_of_lights)
-    frames = (row.of for row in rows.values())
-    of = tuple(
-        -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in frames
-    )
-    return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), faults_of_lights
+    return _Stack(tuple(looks), tuple(over), tuple(faults_of_lights))
 
 
 def _pictures(
-    displays: Sequence[Display], standing: Sequence[StandingFrame], dark: tuple[float, float]
+    displays: Sequence[Display], frames: Sequence[LitFrame], dark: tuple[float, float]
 ) -> list[_Stood]:
     groups = [
-        tuple(group) for _, group in groupby(standing, key=lambda one: (one.shown.display, one.shown.picture))
+        tuple(some) for _, some in groupby(frames, key=lambda one: (one.shown.display, one.shown.picture))
     ]
     known = {display.id: display for display in displays}
     stood = []
-    for k, frames in enumerate(groups):
+    for k, group in enumerate(groups):
         before = groups[k - 1][-1].shown.end if k else dark[0]
         after = groups[k + 1][0].shown.start if k + 1 < len(groups) else dark[1]
-        first, last = frames[0].shown, frames[-1].shown
+        first, last = group[0].shown, group[-1].shown
         times = Times(before, first.start, last.end, after)
-        stood.append(_Stood(known[first.display], first.picture, frames, times))
+        stood.append(_Stood(known[first.display], first.picture, group, times))
     return stood
 
 
@@ -193,6 +236,6 @@ def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, is_end: bool) -> f
 
 
 def _stage(display: Display, pictures: Sequence[_Stood], images: Images) -> EffectContext:
-    frames = [one.scene for picture in pictures for one in picture.frames]
-    places = np.concatenate([scene.shown for scene in frames])
-    return EffectContext(places, display.viewpoint, len(frames[0].places), images)
+    frames = [one for picture in pictures for one in picture.frames]
+    lit = np.concatenate([np.delete(one.places, one.spare, axis=0) for one in frames])
+    return EffectContext(lit, display.viewpoint, len(frames[0].places), images)

@@ -4,11 +4,13 @@ Takes flights within their limits. Proves for every fleet that no two of its dro
 separation, and that no two fleets meet. If this fails between two stops of a fleet, the drones concerned are
 pushed apart, all at once and as little as necessary, until the proof and all limits hold. If that fails, the
 error names the two drones, the time and their distance. Waves of departure are proved where they are made
-(``show.assignment.waves``), so none is changed here.
+(``show.assignment.waves``), so none is changed here. At the end the effects of lights are laid over the
+places where the drones are flown.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from typing import ClassVar
@@ -21,6 +23,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import stricter
 from shotc.ir.trajectory import TrajectoryIR
+from shotc.show.assignment.images import images_of
+from shotc.show.assignment.lights import laid_out_again
 from shotc.show.separation.faults import bent, fleets_meet
 from shotc.show.separation.later_start import later_start
 from shotc.show.separation.off_goals import farthest
@@ -58,7 +62,15 @@ class KeepApart:
             diagnostics += _meeting(mission, fleets, (one, other))
         if diagnostics:
             return Outcome(None, tuple(diagnostics))
-        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
+        lit = tuple(_lit(mission, fleets))
+        return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), lit), tuple(warnings))
+
+
+def _lit(mission: MissionIR, fleets: list[FleetTrajectory]) -> Iterator[FleetTrajectory]:
+    """Yield the fleets with the effects of their lights over the places where they are flown in the end."""
+    images = images_of(mission)
+    assert not isinstance(images, list), "assign-goals refuses an image that cannot be read"
+    yield from (laid_out_again(mission, flight, images) for flight in fleets)
 
 
 def _meeting(

@@ -28,9 +28,8 @@ from shotc.passes.verify.fleets.flight import FleetFlight
 LEVELS = 1.0
 """Tolerance of a colour, levels of 255: rounding."""
 
-OFF_PLACE, OFF_PLACE_MOVING = 1e-3, 0.1
-"""Largest error of the place of an effect, as a share of its picture: over lights that stand, and over an
-animation or a recorded flight, whose drones pass near the places by which the effect was laid out."""
+OFF_PLACE = 1e-3
+"""Largest error of the place of an effect, as a share of its picture: rounding."""
 
 SAME_S = 1e-6
 """Seconds within which a time of the lights is that of a picture: rounding."""
@@ -55,7 +54,7 @@ class _Measure(NamedTuple):
 
     name: str
     unit: str
-    limit: Callable[[Asked], float]
+    limit: float
     value: Callable[[PaintError], float]
 
 
@@ -136,12 +135,12 @@ def _count(flight: FleetFlight, display: Display, lacking: Sequence[Asked], extr
 
 
 _MEASURES = (
-    _Measure("effect off its colours", "", lambda _: LEVELS, lambda error: error.levels),
-    _Measure("effect off its times", "s", lambda _: ON_TIME_S, lambda error: error.seconds),
+    _Measure("effect off its colours", "", LEVELS, lambda error: error.levels),
+    _Measure("effect off its times", "s", ON_TIME_S, lambda error: error.seconds),
     _Measure(
         "effect off its place",
         "",
-        lambda asked: OFF_PLACE if asked.stands else OFF_PLACE_MOVING,
+        OFF_PLACE,
         lambda error: error.share,
     ),
 )
@@ -153,8 +152,8 @@ def _errors(flight: FleetFlight, display: Display, compared: Sequence[_Compared]
     if not measured:
         return
     for measure in _MEASURES:
-        worst, error = max(measured, key=lambda entry: measure.value(entry[1]) / measure.limit(entry[0]))
-        limit = Limit(measure.name, measure.limit(worst), measure.unit, worst.effect.path, shot=display.id)
+        worst, error = max(measured, key=lambda entry: measure.value(entry[1]))
+        limit = Limit(measure.name, measure.limit, measure.unit, worst.effect.path, shot=display.id)
         yield held(flight.fleet.name, limit, WorstValue(measure.value(error), worst.span.starts, "exact"))
 
 

@@ -33,7 +33,7 @@ class Asked(NamedTuple):
     """One effect of the mission.
 
     span : how it comes and goes; begins, ends : its own time, from which its motion counts, s
-    places : positions of the lights that it lies over, (k, 3), m; stands : whether all of these stand still
+    places : positions of the lights that it lies over, (k, 3), m
     """
 
     effect: Effect
@@ -42,7 +42,6 @@ class Asked(NamedTuple):
     begins: float
     ends: float
     places: Array
-    stands: bool
 
 
 class AskedEffects(NamedTuple):
@@ -106,9 +105,8 @@ def _asked(flight: FleetFlight, effect: Effect, window: Window, under: Sequence[
         return None
     frames = [frame for stay in under for frame in stay.frames]
     places = np.concatenate([_lit_places(flight, frame) for frame in frames])
-    still = all(len(stay.frames) == 1 and not stay.is_recorded for stay in under)
     span = _span(effect, window)
-    return Asked(effect, under[0].display, span, window.stands, window.goes, places, still)
+    return Asked(effect, under[0].display, span, window.stands, window.goes, places)
 
 
 def _span(effect: Effect, window: Window) -> FadeTimes:
