@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.path import CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import ticks
-from shotc.ir.trajectory import Claim
+from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.meeting import filming, put_off
 from shotc.passes.verify.sight import CameraAndBody
@@ -20,6 +20,7 @@ from shotc.rounding import at_least
 BEYOND_M, BEYOND_RAD = 0.01, 1e-3  # by which a body is out of the frame beyond what is asked
 FARTHEST_M = 1000.0  # metres up to which another place is searched
 HALVINGS = 30  # bisection steps of that search
+OVER_PAD_M = 0.1  # metres off the vertical over its pad
 BEYOND_DEG = 0.5  # degrees that a camera is turned beyond the least angle
 
 
@@ -32,7 +33,7 @@ def kept_out(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
     times = ticks(mission.rate, phase.start, phase.end)
     if not _pad_is_seen(sight, times, claim):
         yield from _another_time(sight, phase) if other.phases else ()
-    elif not other.phases:
+    elif not other.phases or _over_its_pad(other, times):
         yield f"move the home of `{other.drone}` out of the picture"
     turn = _turned(sight, times, phase)
     if turn:
@@ -46,6 +47,12 @@ def _pad_is_seen(sight: CameraAndBody, times: Array, claim: Claim) -> bool:
     pad = sight.other.curve(sight.other.curve.start)[:3]
     out = sight.out_at(times, np.repeat(pad[None], len(times), axis=0))
     return bool((out < claim.limit - slack(claim.limit)).any())
+
+
+def _over_its_pad(other: DroneTrajectory, times: Array) -> bool:
+    """Return whether a drone stands on its pad, rises from it or lands on it at all of some times."""
+    off = other.curve(times)[:, :2] - other.curve(other.curve.start)[:2]
+    return bool(np.hypot(*off.T).max() < OVER_PAD_M)
 
 
 def _another_time(sight: CameraAndBody, phase: Phase) -> Iterator[str]:

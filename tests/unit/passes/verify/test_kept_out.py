@@ -86,6 +86,14 @@ def test_a_drone_whose_pad_is_seen_moves_its_home() -> None:
     )
 
 
+def test_a_drone_that_waits_and_rises_in_the_picture_moves_its_home() -> None:
+    """It was only told to be higher in the picture, which a pad cannot be."""
+    pad, over = at(20.0, 3.0, 10.0), at(20.0, 3.0, 12.0)
+    rises = through([0.0, 6.0, 10.0], [pad, pad, over])
+    found = advice(DroneTrajectory("bird", rises, (), (Phase("takeoff", None, 0.0, 10.0),), ()))
+    assert found[0] == "move the home of `bird` out of the picture"
+
+
 @pytest.mark.parametrize("first", ["eye", "bird"])
 def test_a_drone_that_comes_from_elsewhere_is_put_off(first: str) -> None:
     """The later one of the two waits: for the other's shot, or for its landing."""
