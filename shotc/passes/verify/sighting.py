@@ -20,6 +20,7 @@ from shotc.passes.verify.sight import PATH, CameraAndBody
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
+STILL_M = 1e-3  # metres off its pad
 NOTICE_M = 0.1  # metres of a shift, below which it is reported as infeasible
 
 _DOING = {
@@ -131,7 +132,7 @@ def _doing(other: DroneTrajectory, time: float) -> str:
     phase = next(p for p in other.phases if time <= p.end)
     if phase.shot is not None:
         return f"{other.drone} is in its shot `{phase.shot}` then"
-    still = np.array_equal(other.curve(time)[:3], other.curve(other.curve.start)[:3])
+    still = np.linalg.norm(other.curve(time)[:3] - other.curve(other.curve.start)[:3]) < STILL_M
     if still and phase.name == "takeoff":
         return f"{other.drone} stands on its pad then"
     return f"{other.drone} is {_DOING[phase.name]} then"

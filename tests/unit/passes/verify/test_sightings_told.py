@@ -23,12 +23,12 @@ PHASES = (
 
 
 class Rising:
-    """A drone that stands on its pad for 5 s, and flies on till 50 s."""
+    """A drone that stands on its pad for 5 s, but for rounding, and flies on till 50 s."""
 
     start, end = 0.0, 50.0
 
     def __call__(self, t: float) -> np.ndarray:
-        return np.array([0.0, 0.0, max(t - 5.0, 0.0)])
+        return np.array([0.0, 0.0, max(t - 5.0, 1e-15 * t)])
 
 
 @pytest.mark.parametrize(
