@@ -6,10 +6,11 @@ the picture. The plan states how far, and no more is allowed; where nothing is n
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,6 +43,12 @@ SWING_SHARE = 0.5
 
 PLACES_PER_CHORD = 50
 """Samples of the chord between two keyframes, for obstacles."""
+
+LONGER_RATIO = 1.5
+"""Longest way between two keyframes over their distance, besides the way aside and back."""
+
+PLACES_PER_WAY = 400
+"""Samples of the way between two keyframes, for its length."""
 
 AT_ENDS_M = 0.5
 """Metres from its ends within which a generated path begins and ends, where these are free."""
@@ -112,11 +119,15 @@ def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR)
     deviation = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
     k = int(deviation.argmax())
     worst = WorstValue(float(deviation[k]), float(t[k]), "exact")
+    ways: list[_Way] = []
     for i in range(len(t) - 1):
         between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
         worst = between if between.value > worst.value else worst
+        chord = float(norm(at[i + 1] - at[i]))
+        ways.append(_way(flight, (t[i], t[i + 1]), chord, BOW_SHARE * chord + reported + UNREPORTED_M))
     path = Limit("distance from its path", reported + UNREPORTED_M, "m", shot.path, shot=shot.id)
     yield claim(flight, path, worst)
+    yield from _longest(flight, placed, ways)
     free = np.array([_is_free(flight, keyframe) for keyframe in keyframes])
     ends = [i for i in (0, len(t) - 1) if free[i]]
     if ends:
@@ -139,6 +150,7 @@ def _swing(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim
     lengths = norm(np.diff(at, axis=0))
     drawn = half_widths([k.at for k in keyframes]) if is_drawn(shot) else None
     swings: list[tuple[float, float, WorstValue]] = []
+    ways: list[_Way] = []
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
@@ -146,10 +158,41 @@ def _swing(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim
         most = near + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
         worst = _off_chord(flight, times, ends, most)
         swings.append((worst.value / most, most, worst))
+        ways.append(_way(flight, times, float(lengths[i]), most))
     if swings:
         _, most, worst = max(swings, key=lambda one: one[0])
         limit = Limit("way between keyframes", most, "m", shot.path, shot=shot.id)
         yield claim(flight, limit, worst)
+    yield from _longest(flight, placed, ways)
+
+
+class _Way(NamedTuple):
+    """A leg between two keyframes: its share of the longest allowed one, both lengths, metres, its start."""
+
+    share: float
+    flown: float
+    most: float
+    start: float
+
+
+def _way(flight: JudgedFlight, times: tuple[float, float], chord: float, aside: float) -> _Way:
+    """Return a leg with its longest allowed way: along the chord, and aside once and back.
+
+    aside : how far it may leave the chord, metres
+    """
+    most, flown = LONGER_RATIO * chord + 2.0 * aside, 0.0
+    if times[0] < times[1] < inf:
+        places = flight.track.curve(np.linspace(*times, PLACES_PER_WAY))[:, :3]
+        flown = float(norm(np.diff(places, axis=0)).sum())
+    return _Way(flown / most, flown, most, float(times[0]))
+
+
+def _longest(flight: JudgedFlight, placed: PlacedShot, ways: Sequence[_Way]) -> Iterator[Claim]:
+    """Yield the claim that no leg is longer than its chord and what it may leave it by, as with loops."""
+    if ways:
+        longest = max(ways)
+        limit = Limit("detour between keyframes", longest.most, "m", placed.shot.path, shot=placed.shot.id)
+        yield claim(flight, limit, WorstValue(longest.flown, longest.start, "sampled"))
 
 
 def _between(flight: JudgedFlight, times: tuple[float, float], ends: tuple[Array, Array]) -> WorstValue:

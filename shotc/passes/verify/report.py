@@ -98,6 +98,7 @@ RULES = {
     "distance from its place": Rule("V044", help=REPLAN),
     "detour where it is free": Rule("V044", help=REPLAN),
     "way between keyframes": Rule("V044", help=REPLAN),
+    "detour between keyframes": Rule("V044", help=REPLAN),
     "lens off its keyframes": Rule("V045", help=REPLAN),
     "direction off its keyframes": Rule("V045", help=REPLAN),
     "turn off its keyframes": Rule("V045", help=REPLAN),

@@ -96,6 +96,21 @@ def test_a_keyframe_a_nanosecond_outside_its_shot_hides_no_lost_time() -> None:
     assert not claim(free(early), BETWEEN).holds
 
 
+def test_a_shot_flies_no_loops_beside_its_way() -> None:
+    """Six times 12 m aside and back, where 15 m aside are allowed, before it goes on its way."""
+    k = int(np.argmin(np.abs(TRACK.curve.breaks - SHOT[0])))
+    here = TRACK.curve(SHOT[0])
+    places = here + np.outer(np.arange(13) % 2, 12.0 * np.eye(7)[0])
+    zero = np.zeros((13, 7))
+    loops = quintic_hermite(SHOT[0] + 6.0 * np.arange(13.0), places, zero, zero)
+    flown, sound = free(inserted(TRACK, k, loops)), free()
+    assert claim(sound, "detour between keyframes").holds
+    assert claim(flown, "way between keyframes").holds
+    assert not claim(flown, "detour between keyframes").holds
+    assert claim(flown, "detour between keyframes").worst == pytest.approx(144.0 + 31.4, abs=1.0)
+    assert "V044" in codes(flown)
+
+
 def test_a_shot_with_a_duration_may_be_slow() -> None:
     assert claim(free(stretched(TRACK, SHOT, 8.0), timing=Timing(duration=240.0)), BETWEEN).holds
 
