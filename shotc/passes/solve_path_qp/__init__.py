@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -33,6 +34,7 @@ from shotc.passes.solve_path_qp.explain.path import (
     swings,
 )
 from shotc.passes.solve_path_qp.explain.schedule import out_of_turn, outside_track, too_late, way_met
+from shotc.planning.clock.flights import crosswise, settled
 from shotc.planning.clock.itinerary import Itinerary
 from shotc.planning.clock.later_films import later_films
 from shotc.planning.clock.moving import moving_targets, other_drones
@@ -114,9 +116,17 @@ class SolvePathQp:
         self, ir: KeyframeIR, order: Sequence[Drone], ctx: PassContext, *, whole: bool = True
     ) -> _Ordered:
         """Plan drones one after the other; whole : whether the others are planned after one fails."""
+        ends: dict[str, float] = {}
+        once = partial(self._once, ir, order, ctx, ends, whole)
+        return settled(once, ends, crosswise(ir.mission, [drone.name for drone in order]))
+
+    def _once(
+        self, ir: KeyframeIR, order: Sequence[Drone], ctx: PassContext, ends: dict[str, float], whole: bool
+    ) -> _Ordered:
+        """Plan drones one after the other with the ends of shots that are known, which are extended."""
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
-        known = _EarlierDrones(self.durations, {}, {})
+        known = _EarlierDrones(self.durations, ends, {})
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []

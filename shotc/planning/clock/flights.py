@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from shotc.planning.timing.timed_leg import leg_motion
 
 LATE_S = 1e-6  # seconds
 
+Result = TypeVar("Result")
+
 
 @lru_cache(maxsize=4)  # refiners ask for the same flights repeatedly
 def flights(path: PathIR) -> Mapping[str, DroneTrajectory]:
@@ -26,8 +29,37 @@ def flights(path: PathIR) -> Mapping[str, DroneTrajectory]:
 
 
 def _all(path: PathIR) -> dict[str, DroneTrajectory]:
-    ends: dict[str, float] = {}
-    return {flown.drone: flight(path.keyframes.mission, flown, ends) for flown in path.timed}
+    mission, ends = path.keyframes.mission, dict[str, float]()
+
+    def flown_once() -> dict[str, DroneTrajectory]:
+        return {flown.drone: flight(mission, flown, ends) for flown in path.timed}
+
+    return settled(flown_once, ends, crosswise(mission, [flown.drone for flown in path.timed]))
+
+
+def crosswise(mission: MissionIR, order: Sequence[str]) -> bool:
+    """Return whether a shot waits for one of a drone that comes later in an order of drones."""
+    rank = {name: k for k, name in enumerate(order)}
+    owner = {shot.id: shot.drone for shot in mission.shots}
+    waits = ((shot.drone, owner.get(shot.timing.after or "", shot.drone)) for shot in mission.shots)
+    return any(rank.get(other, -1) > rank.get(own, -1) for own, other in waits)
+
+
+def settled(once: Callable[[], Result], ends: dict[str, float], again: bool) -> Result:
+    """Return what one pass over all drones gives; if ``again``, pass after pass until the ends stay.
+
+    Each pass knows the ends of the one before it. Shots do not wait in a circle, so each pass settles one
+    more of them at least.
+
+    ends : mission times at which shots end, by id, seconds, which each pass extends
+    """
+    result = once()
+    for _ in range(len(ends) if again else 0):
+        before = dict(ends)
+        result = once()
+        if ends == before:
+            break
+    return result
 
 
 @dataclass(frozen=True, slots=True, eq=False)
