@@ -4,7 +4,8 @@ Before a shot with a `start`, waiting is free. Without one, a shot on a path and
 or after the shot of `after`. A drone may wait where its way, flown earlier, would come near to another drone
 or to a moving target, or into a picture. So the flown way is put earlier, second by second: the least wait
 from which on it meets nobody is needed, and ``WAIT_RATIO`` times that is allowed, since planning tries waits
-in steps. A shot of what moves begins when the drone can be there, and at most ``FILM_S`` later.
+in steps. A shot of what moves begins when the drone can be there, inside all fences, and at most ``FILM_S``
+later.
 """
 
 from __future__ import annotations
@@ -17,18 +18,19 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
+from shotc.geom.solids import signed_distance
 from shotc.ir.bodies import centres, flying
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import carriers
-from shotc.ir.limits import Limits
-from shotc.ir.mission import Shot
+from shotc.ir.limits import Limits, Vec3
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.sampling import cameras, phase_index
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.lost_time import SLOWER_RATIO, Transfer, transfers
 
-WAITED, LATE, UNJUDGED = "wait without a reason", "film begun late", "waits that are not judged"
+WAITED, LATE, UNJUDGED = "wait without a reason", "delay of the start", "waits that are not judged"
 
 WAIT_RATIO, WAIT_S = 1.5, 3.0
 """Largest wait over the needed one, and seconds beyond it."""
@@ -169,14 +171,21 @@ def _begun(flight: JudgedFlight, shot: Shot, transfer: Transfer, ready: float) -
     first = max([ready, *(track.since for track in tracks if track is not None)])
     for t in _spread(first, transfer.end - FILM_S, WAITS_S):
         begun = at_start(mission, shot, float(t))
-        place = np.array(ideal_place(mission, begun, float(t), float(t)))
-        if t - transfer.start >= SLOWER_RATIO * _straight(flight.drone.limits, place - here) + REACH_S:
+        place = ideal_place(mission, begun, float(t), float(t))
+        way = _straight(flight.drone.limits, np.array(place) - here)
+        if _is_inside(mission, place) and t - transfer.start >= SLOWER_RATIO * way + REACH_S:
             first = float(t)
             break
     else:
         first = max(first, transfer.end - FILM_S)
     limit = Limit(LATE, FILM_S, "s", (*shot.path, "timing"), shot=shot.id)
     return claim(flight, limit, WorstValue(transfer.end - first, transfer.end, "sampled"))
+
+
+def _is_inside(mission: MissionIR, place: Vec3) -> bool:
+    """Return whether a place is inside all fences; a drone waits until its place for the target is."""
+    fences = (zone.solid for zone in mission.zones if zone.keep == "in")
+    return all(signed_distance(fence, place) <= 0.0 for fence in fences)
 
 
 def _spread(start: float, end: float, step: float) -> Array:

@@ -7,7 +7,7 @@ before. So a shot whose target approaches the drone begins when the target comes
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from math import inf
@@ -47,8 +47,9 @@ ROUNDING_S = 1e-6  # seconds
 TURN_TRIES = 3  # departures that are tried until the turn before them is known
 SPARE_SHARE = 0.05  # of a turn's time, by which the next departure is later: another one has another turn
 SLIGHT_M = 0.02  # metres, tolerance of a deviation
-SOON_S, WHOLE_S = 40.0, 1.0
-"""Longest delay of a start for a fence, and spacing of the candidates, seconds."""
+WHOLE_S, SOON_S, WIDER_RATIO = 1.0, 40.0, 1.05
+"""Spacing of the starts that are tried for a fence, seconds; the delay from which on they lie farther apart,
+and the ratio of two successive delays then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,29 +164,37 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
 def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: float) -> float:
     """Return the first start, from ``start`` on, at which the shot's ideal lies within all fences.
 
-    Its target may be outside of them at first. If no such start comes soon, ``start`` is returned.
+    Its target may be outside of them at first. If it is not inside for the whole shot before its track ends,
+    or within ``HORIZON_S``, ``start`` is returned.
     """
-    firsts = (start + float(more) for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S))
-    tried = list(takewhile(lambda first: outside(mission, placed, first) is None, firsts))
 
-    def fits(i: int, shot: Shot | None = None) -> bool:
+    def fits(first: float, shot: Shot | None = None) -> bool:
         """Return whether a shot, by default as it is placed for a start, is inside for the start."""
-        shot = placed_at(mission, placed, tried[i]).shot if shot is None else shot
+        shot = placed_at(mission, placed, first).shot if shot is None else shot
         duration = shot.timing.duration or 0.0
-        times = tried[i] + np.append(np.arange(0.0, duration, WHOLE_S), duration)
-        return bool(bounds_slack(space, ideal_places(mission, shot, tried[i], times)).min() >= 0.0)
+        times = first + np.append(np.arange(0.0, duration, WHOLE_S), duration)
+        return bool(bounds_slack(space, ideal_places(mission, shot, first, times)).min() >= 0.0)
 
-    if not tried or fits(0):
+    if outside(mission, placed, start) is not None or fits(start):
         return start
+    tried = list(takewhile(lambda first: outside(mission, placed, first) is None, _later_starts(start)))
     # Placing a framing takes long. Placed for the first start, it is a good guess for the later ones.
     moved = placed_at(mission, placed, start).shot
-    guess = next((i for i in range(1, len(tried)) if fits(i, moved)), 1)
-    index = next((i for i in range(guess, len(tried)) if fits(i)), None)
+    guess = next((i for i in range(len(tried)) if fits(tried[i], moved)), 0)
+    index = next((i for i in (*range(guess, len(tried)), *range(guess)) if fits(tried[i])), None)
     if index is None:
-        index = next((i for i in range(1, guess) if fits(i)), None)
-    elif index == guess:
-        index = next((i + 1 for i in range(guess - 1, 0, -1) if not fits(i)), 1)
-    return start if index is None else tried[index]
+        return start
+    last = start if index == 0 else tried[index - 1]
+    earlier: list[float] = np.arange(tried[index] - WHOLE_S, last, -WHOLE_S).tolist()
+    return min(takewhile(fits, earlier), default=tried[index])
+
+
+def _later_starts(start: float) -> Iterator[float]:
+    """Yield starts after a start, first ``WHOLE_S`` apart, then farther and farther."""
+    delay = WHOLE_S
+    while delay <= HORIZON_S:
+        yield start + delay
+        delay = max(delay + WHOLE_S, delay * WIDER_RATIO if delay >= SOON_S else 0.0)
 
 
 def put_off(
