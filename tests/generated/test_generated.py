@@ -39,6 +39,12 @@ def test_a_small_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> N
     assert_planned_and_whole(small(seed))
 
 
+@pytest.mark.long
+def test_run_ups_of_four_drones_begin_farther_off_where_they_lack_their_separation() -> None:
+    """Led aside, that of a second drone passed the first at 2.3 m of 3, and a refiner gave up (R011)."""
+    assert not judge(mission(52070), "none").errors
+
+
 @pytest.mark.fuzz
 @pytest.mark.parametrize("seed", MANY)
 def test_a_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:

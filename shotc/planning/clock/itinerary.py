@@ -344,20 +344,18 @@ class Itinerary:
     def _with_better_ends(self, near: Reached) -> Reached:
         """Return a shot with other ends, if they are better.
 
-        If every transfer to its first pose comes too near to a target, the shot begins aside or farther off.
-        If the run-up or the run-out lacks clearances of transfers, it leads aside.
+        If every transfer to its first pose comes too near to a target, or its run-up or run-out lacks
+        clearances of transfers, the shot begins or ends aside, or farther off.
         """
         into, out = (lack > SLIGHT_M for lack in near.shot.lacks)
-        tries: tuple[tuple[EndRequirement, ...], ...]
-        if near.transfer.met:
-            tries = leading_aside(True, out), FROM_AFAR
-        else:
-            tries = (leading_aside(into, out),) if into or out else ()
-        for requirements in tries:
+        best = near
+        for requirements in (leading_aside(into or near.transfer.met is not None, out), FROM_AFAR):
+            if best.transfer.met is None and max(best.shot.lacks) <= SLIGHT_M:
+                break
             far = self._reached_as(near.placed, near.shot.leg.start, requirements)
-            if isinstance(far, Reached) and far.better(near):
-                return far
-        return near
+            if isinstance(far, Reached) and far.better(best):
+                best = far
+        return best
 
     def _reached_as(
         self, placed: PlacedShot, start: float, requirements: tuple[EndRequirement, ...]
