@@ -170,7 +170,7 @@ targets:
     [-43.83, 131.01, 1.265]], speed: 3.45 m/s}, radius: 1.15, height: 2.53}
 drones:
   cam1: {model: mini, home: [-28.1, 0.5, 0]}
-rules: {composition: center, ground_clearance: 0.5, target_clearance: 1}
+rules: {composition: center, ground_clearance: 0.5, target_clearance: 1, smoothing: high}
 shots:
   - id: a1
     kind: keyframes
