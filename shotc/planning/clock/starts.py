@@ -184,6 +184,8 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
     index = next((i for i in (*range(guess, len(tried)), *range(guess)) if fits(tried[i])), None)
     if index is None:
         return start
+    if index == guess:  # starts before the guess may fit as well
+        index = next((i + 1 for i in range(guess - 1, -1, -1) if not fits(tried[i])), 0)
     last = start if index == 0 else tried[index - 1]
     earlier: list[float] = np.arange(tried[index] - WHOLE_S, last, -WHOLE_S).tolist()
     return min(takewhile(fits, earlier), default=tried[index])
