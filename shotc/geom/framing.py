@@ -44,6 +44,12 @@ class Cameras:
         )
 
 
+def optical_axes(yaw: Array, pitch: Array) -> Array:
+    """Return the unit vectors (M, 3) in W along which cameras look; yaw, pitch : (M,), rad."""
+    level = np.cos(pitch)
+    return np.column_stack([level * np.cos(yaw), level * np.sin(yaw), np.sin(pitch)])
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Frames:
     """One target in M frames, every array of shape (M,).

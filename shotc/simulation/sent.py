@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.framing import optical_axes
 from shotc.ir.limits import Limits
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
@@ -171,8 +172,7 @@ class Sent:
         plan = self._known(run, stages)
         if plan is not None and plan.aim is not None and plan.times[-1] > stages[0]:
             planned = _instead(planned, stages, plan, plan.aim)
-        yaw, pitch = planned.T
-        return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
+        return optical_axes(*planned.T)
 
     def films(self, stages: Array) -> bool:
         """Return whether it films at any of these times."""

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.lens import middle_lens
 from shotc.emit.waypoints.track import Poses, SampledFlight, project, select
+from shotc.geom.framing import optical_axes
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
@@ -154,7 +155,7 @@ def facing(position: Array, point: Vec3 | Array) -> Array:
 
 def _meeting(poses: Poses, subject: Array) -> Vec3:
     """Return the point with the least squared distance to all camera axes, or a point straight ahead."""
-    position, axis = poses.position, _axes(poses)
+    position, axis = poses.position, optical_axes(poses.cam_yaw, poses.cam_pitch)
     middle = len(axis) // 2
     distance = min(float(np.linalg.norm(subject[middle] - position[middle])), FARTHEST_REGION_M)
     ahead = position[middle] + distance * axis[middle]
@@ -169,16 +170,9 @@ def _meeting(poses: Poses, subject: Array) -> Vec3:
     return (float(best[0]), float(best[1]), float(best[2]))
 
 
-def _axes(poses: Poses) -> Array:
-    level = np.cos(poses.cam_pitch)
-    return np.stack(
-        [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)], axis=1
-    )
-
-
 def _gains(poses: Poses, subject: Array) -> bool:
     """Return whether regions of interest show a shot better than fixed angles, compared window by window."""
-    axis = _axes(poses)
+    axis = optical_axes(poses.cam_yaw, poses.cam_pitch)
     by_place = by_direction = 0.0
     for first in range(0, len(axis) - 1, WINDOW_SAMPLES):
         part = slice(first, first + WINDOW_SAMPLES + 1)

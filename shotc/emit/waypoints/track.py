@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.framing import Cameras
+from shotc.geom.framing import Cameras, optical_axes
 from shotc.ir.bodies import moved
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -94,9 +94,7 @@ def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: 
     """Return the watched point at each time, (n, 3), metres: the framed target's centre, else
     straight ahead.
     """
-    level = np.cos(poses.cam_pitch)
-    ahead = [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)]
-    subject: Array = poses.position + FAR_M * np.stack(ahead, axis=1)
+    subject: Array = poses.position + FAR_M * optical_axes(poses.cam_yaw, poses.cam_pitch)
     for span in flight.framing:
         inside = (time >= span.start) & (time <= span.end)
         filmed = mission.target(span.target)

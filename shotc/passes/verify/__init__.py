@@ -26,7 +26,7 @@ from shotc.passes.verify.fleets import fleet_claims, fleet_structure
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.looking import looking
 from shotc.passes.verify.loss import losses
-from shotc.passes.verify.lost_time import lost_time
+from shotc.passes.verify.lost_time import lost_time, transfers
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.paced import pace
 from shotc.passes.verify.pair import from_fleets, separation
@@ -81,6 +81,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     covered: list[CoveredShares] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
+        between = transfers(flight)
         claims += [
             *shape(flight),
             *energy(flight),
@@ -90,8 +91,8 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *ahead(flight),
             *shots(flight, ir),
             *pace(flight, ir),
-            *lost_time(flight, ir),
-            *waits(flight, ir),
+            *lost_time(flight, ir, between),
+            *waits(flight, ir, between),
             *course(flight, ir),
             *looking(flight, ir),
         ]

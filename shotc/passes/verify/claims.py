@@ -6,16 +6,19 @@ a micrometre, a microradian). Bounds are closed to half of that gap.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite
+from typing import NamedTuple
 
 from shotc.geom.proof import ProvedExtreme
 from shotc.geom.surface.ground import NoGround
 from shotc.ir.drone import Drone
+from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.trajectory import Claim, DroneTrajectory, Method
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import Claim, DroneTrajectory, Method, TrajectoryIR
 
 LIMIT_TOLERANCE = 1e-6
 
@@ -28,6 +31,21 @@ class JudgedFlight:
     drone: Drone
     track: DroneTrajectory
     others: tuple[DroneTrajectory, ...] = ()
+
+
+class FlownShot(NamedTuple):
+    """A shot of the mission, and the phase in which it is flown."""
+
+    placed: PlacedShot
+    phase: Phase
+
+
+def flown_shots(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[FlownShot]:
+    """Yield the shots of one drone that are flown once; ``shots`` refuses the others."""
+    for placed in ir.keyframes.shots:
+        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
+        if placed.shot.drone == flight.drone.name and len(flown) == 1:
+            yield FlownShot(placed, flown[0])
 
 
 @dataclass(frozen=True, slots=True)

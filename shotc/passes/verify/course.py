@@ -25,7 +25,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.preference import PICTURE_SHARE
 from shotc.ir.tolerances import BOW_SHARE, ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, flown_shots, gap
 from shotc.passes.verify.explained import (
     NEAR_M,
     ExpectedPlaces,
@@ -56,13 +56,12 @@ AT_ENDS_M = 0.5
 
 def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield claims that this drone's shots with keyframes are flown in order and on their paths."""
-    for placed in ir.keyframes.shots:
-        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
-        if placed.shot.drone != flight.drone.name or len(flown) != 1 or placed.shot.ideal is not None:
+    for placed, phase in flown_shots(flight, ir):
+        if placed.shot.ideal is not None:
             continue
         times = [k.time for k in flight.track.keyframes if k.shot == placed.shot.id]
-        yield _in_order(flight, placed, flown[0])
-        if len(times) == len(placed.keyframes) and all(flown[0].start <= t <= flown[0].end for t in times):
+        yield _in_order(flight, placed, phase)
+        if len(times) == len(placed.keyframes) and all(phase.start <= t <= phase.end for t in times):
             t = np.array(_times(flight, placed))
             yield from _along(flight, placed, t, ir)
 

@@ -18,7 +18,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, projected, references, share_of_frames, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
-from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, flown_shots
 from shotc.passes.verify.close import errors_close, margins_close
 from shotc.passes.verify.pictured import asked
 from shotc.passes.verify.reference import reference_framing
@@ -56,13 +56,10 @@ class Filmed:
 
 def filmed(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Filmed]:
     """Yield the shots that a drone films, with the samples of all their targets."""
-    for placed in ir.keyframes.shots:
-        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
-        if len(flown) != 1 or placed.shot.drone != flight.drone.name:
-            continue
+    for placed, phase in flown_shots(flight, ir):
         every = subjects(flight.mission, flight.track, placed.shot.id)
-        views = (view_of(flight, placed, target, flown[0]) for target in every)
-        yield Filmed(placed, flown[0], tuple(view for view in views if view is not None))
+        views = (view_of(flight, placed, target, phase) for target in every)
+        yield Filmed(placed, phase, tuple(view for view in views if view is not None))
 
 
 def framing(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:

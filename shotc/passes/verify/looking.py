@@ -19,7 +19,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import ticks_inside
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, flown_shots, gap
 from shotc.passes.verify.pictured import KeyframedSpan, spans_of
 from shotc.planning.framing.moments import placed_at
 
@@ -52,11 +52,7 @@ The curve of its angles is smooth, so a large turn makes it swing on the ways be
 
 def looking(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield claims that this drone's shots are filmed with the directions and lenses that they ask for."""
-    for placed in ir.keyframes.shots:
-        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
-        if placed.shot.drone != flight.drone.name or len(flown) != 1:
-            continue
-        (phase,) = flown
+    for placed, phase in flown_shots(flight, ir):
         now = placed_at(flight.mission, placed, phase.start)
         if flight.drone.body == "follow-camera":
             yield _body(flight, now, phase)

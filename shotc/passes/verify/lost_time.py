@@ -8,7 +8,7 @@ is bounded by the straight line and by what stands, so that neither a turning ca
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 from math import inf, pi
 from typing import NamedTuple
@@ -17,13 +17,14 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
 from shotc.ir.tolerances import ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, flown_shots
 from shotc.passes.verify.explained import size_of
 from shotc.passes.verify.least_time import least_times
 
@@ -70,13 +71,15 @@ class Transfer(NamedTuple):
         return self.end - self.start - float(np.diff(self.moves, axis=1).sum())
 
 
-def lost_time(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Yield claims on the time that this drone loses in its shots on paths, and between its shots."""
-    for placed in ir.keyframes.shots:
-        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
-        if placed.shot.drone == flight.drone.name and len(flown) == 1 and placed.shot.ideal is None:
-            yield from _between(flight, placed, flown[0])
-    yield from _on_transits(flight)
+def lost_time(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -> Iterator[Claim]:
+    """Yield claims on the time that this drone loses in its shots on paths, and between its shots.
+
+    between : what it flies between its shots
+    """
+    for placed, phase in flown_shots(flight, ir):
+        if placed.shot.ideal is None:
+            yield from _between(flight, placed, phase)
+    yield from _on_transits(flight, between)
 
 
 def transfers(flight: JudgedFlight) -> tuple[Transfer, ...]:
@@ -165,17 +168,18 @@ def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretc
     return legs
 
 
-def _on_transits(flight: JudgedFlight) -> Iterator[Claim]:
+def _on_transits(flight: JudgedFlight, between: Sequence[Transfer]) -> Iterator[Claim]:
     """Yield the claims on the time that a drone loses on its transits, and on how long these are."""
     curve, path = flight.track.curve, flight.drone.path
     stands = DETOUR_M + SIZES * sum(_sizes(flight.mission))
     lost, detours = [(0.0, 0.0)], [_Detour(0.0, 0.0, 0.0, stands)]
-    for transfer in transfers(flight):
+    for transfer in between:
         ways = (least_times(curve, (a, b), flight.drone, 1.0, turns=False) for a, b in transfer.moves)
         least = sum(float(way.least[-1]) for way in ways)
         took = transfer.end - transfer.start - transfer.idle
-        lost.append((took - TRANSIT_RATIO * least - _turning(flight, transfer), transfer.start))
-        at = curve(np.linspace(transfer.start, transfer.end, PLACES))[:, :3]
+        poses = curve(np.linspace(transfer.start, transfer.end, PLACES))
+        lost.append((took - TRANSIT_RATIO * least - _turning(flight.drone, poses), transfer.start))
+        at = poses[:, :3]
         way = float(np.linalg.norm(np.diff(at, axis=0), axis=1).sum())
         most = DETOUR_RATIO * float(np.linalg.norm(at[-1] - at[0])) + stands
         detours.append(_Detour(way / most, transfer.start, way, most))
@@ -196,10 +200,12 @@ class _Detour(NamedTuple):
     most: float
 
 
-def _turning(flight: JudgedFlight, transfer: Transfer) -> float:
-    """Return the seconds that the turns of a transfer take, each axis by ``MOST_TURN_RAD`` at most."""
-    at = flight.track.curve(np.linspace(transfer.start, transfer.end, PLACES))
-    gimbal, limits = flight.drone.gimbal, flight.drone.limits
+def _turning(drone: Drone, at: Array) -> float:
+    """Return the seconds that the turns of a transfer take, each axis by ``MOST_TURN_RAD`` at most.
+
+    at : poses on the transfer, (M, 7)
+    """
+    gimbal, limits = drone.gimbal, drone.limits
     angles = (
         (at[:, BODY_YAW], limits.yaw_rate, limits.yaw_acceleration),
         (at[:, CAM_YAW] - at[:, BODY_YAW], gimbal.rate, gimbal.acceleration),

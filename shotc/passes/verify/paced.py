@@ -21,7 +21,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.pace import leaves_time, most_share, on_clock
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, flown_shots, gap
 
 CONSTRAINT = "pace"
 
@@ -44,16 +44,13 @@ class LimitUse(NamedTuple):
 def pace(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield the claims that this drone's shots keep their pace, of shots whose time is free."""
     beside = on_clock(ir.keyframes)
-    for placed in ir.keyframes.shots:
-        flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
-        if placed.shot.drone != flight.drone.name or len(flown) != 1:
-            continue
-        start = free_from(flight, placed, flown[0].start)
-        if start is None or not start < flown[0].end:
+    for placed, phase in flown_shots(flight, ir):
+        start = free_from(flight, placed, phase.start)
+        if start is None or not start < phase.end:
             continue
         share = most_share(placed.shot.pace) if beside else placed.shot.pace
         limit = Limit(CONSTRAINT, share, "of the limits", (*placed.shot.path, "pace"), shot=placed.shot.id)
-        uses = limit_uses(flight.drone, cut(flight.track.curve, start, flown[0].end), placed.shot.smoother)
+        uses = limit_uses(flight.drone, cut(flight.track.curve, start, phase.end), placed.shot.smoother)
         bounds = [sup_convex(use.pieces, use.share, gap(share)) for use in uses]
         yield bounded(flight, limit, _first_worst(bounds, gap(share)))
 

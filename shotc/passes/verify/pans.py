@@ -9,6 +9,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
+from shotc.geom.framing import optical_axes
 from shotc.geom.pan import WINDOW_S, slowest, whose
 from shotc.ir.allow import FAST_PAN
 from shotc.ir.mission import MissionIR
@@ -88,14 +89,9 @@ def _followed(
 def _widths(track: DroneTrajectory, starts: Array, window: float) -> Array:
     """Return the frame widths that pass through the picture from each time to a window later, (M,)."""
     before, after = track.curve(starts), track.curve(starts + window)
-    turned = np.arccos(np.clip((_axis(before) * _axis(after)).sum(axis=1), -1.0, 1.0))
+    first, last = (optical_axes(pose[:, CAM_YAW], pose[:, CAM_PITCH]) for pose in (before, after))
+    turned = np.arccos(np.clip((first * last).sum(axis=1), -1.0, 1.0))
     return np.asarray(turned / (np.tan(before[:, HFOV] / 2) + np.tan(after[:, HFOV] / 2)))
-
-
-def _axis(pose: Array) -> Array:
-    """Return the optical axes (M, 3) of poses (M, 7)."""
-    yaw, pitch = pose[:, CAM_YAW], pose[:, CAM_PITCH]
-    return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
 
 
 def _enough(track: DroneTrajectory, phase: Phase, pan: FastestTurn, free: bool) -> float:

@@ -10,13 +10,14 @@ later.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.framing import optical_axes
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import signed_distance
 from shotc.ir.bodies import centres, flying
@@ -28,7 +29,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.sampling import cameras, phase_index
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
-from shotc.passes.verify.lost_time import SLOWER_RATIO, Transfer, transfers
+from shotc.passes.verify.lost_time import SLOWER_RATIO, Transfer
 
 WAITED, LATE, UNJUDGED = "wait without a reason", "delay of the start", "waits that are not judged"
 
@@ -64,12 +65,15 @@ class _Wait(NamedTuple):
     start: float
 
 
-def waits(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Yield claims on the waits of one drone before its shots, and on its way home."""
+def waits(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -> Iterator[Claim]:
+    """Yield claims on the waits of one drone before its shots, and on its way home.
+
+    between : what it flies between its shots
+    """
     mission, path = flight.mission, flight.drone.path
     ends = {p.shot: p.end for track in ir.drones for p in track.phases if p.shot is not None}
     lost, unjudged = [_Wait(0.0, 0.0)], 0
-    for transfer in transfers(flight):
+    for transfer in between:
         shot = None if transfer.shot is None else mission.shot(transfer.shot)
         if shot is not None and shot.timing.start is not None:
             continue
@@ -154,8 +158,7 @@ def _in_picture(flight: JudgedFlight, camera: DroneTrajectory, times: Array, pla
     inside = np.clip(times, camera.curve.start, camera.curve.end)
     films = np.array([p.shot is not None for p in camera.phases])[phase_index(camera.phases, inside)]
     eyes = cameras(flight.mission, camera, inside)
-    level = np.cos(eyes.pitch)
-    ahead = np.column_stack([level * np.cos(eyes.yaw), level * np.sin(eyes.yaw), np.sin(eyes.pitch)])
+    ahead = optical_axes(eyes.yaw, eyes.pitch)
     offset = places - eyes.position
     along = np.einsum("md,md->m", ahead, offset) / np.maximum(np.linalg.norm(offset, axis=1), HERE_M)
     angle = np.arccos(np.clip(along, -1.0, 1.0))

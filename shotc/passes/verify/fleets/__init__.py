@@ -9,6 +9,7 @@ from shotc.passes.verify.fleets.apart import from_parked, separations
 from shotc.passes.verify.fleets.cameras import from_cameras
 from shotc.passes.verify.fleets.displays import displays
 from shotc.passes.verify.fleets.effects import effects
+from shotc.passes.verify.fleets.effects.stays import stays_of
 from shotc.passes.verify.fleets.fades import fades
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
@@ -24,7 +25,8 @@ def fleet_claims(ir: TrajectoryIR, progress: Callable[[str], None]) -> list[Clai
     for flight in flights:
         progress(f"verify {flight.fleet.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *displays(flight, ir)]
-        claims += [*fades(flight), *effects(flight)]
+        stays = stays_of(flight)
+        claims += [*fades(flight, stays), *effects(flight, stays)]
     claims += [*separations(flights), *from_parked(ir, flights), *from_cameras(flights, ir.drones)]
     return [*claims, *pyro(ir, flights)]
 

@@ -5,7 +5,7 @@ A recorded flight has the lights of its file, and so have the ways beside it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,14 +15,9 @@ from shotc.ir.light_colors import faded_colors, shown_share
 from shotc.ir.light_paints import FULL_LEVEL
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, WorstValue, held
-from shotc.passes.verify.fleets.effects.stays import dark_from, dark_until, stays_of
+from shotc.passes.verify.fleets.effects.stays import SAME_S, Stay, dark_from, dark_until
 from shotc.passes.verify.fleets.flight import FleetFlight
-
-LEVELS = 1.0
-"""Tolerance of each part of a colour, in levels of 255: rounding."""
-
-SAME_S = 1e-6
-"""Seconds within which a time of the lights is that of a picture: rounding."""
+from shotc.passes.verify.fleets.lights import LEVELS
 
 
 class _Knots(NamedTuple):
@@ -33,12 +28,14 @@ class _Knots(NamedTuple):
     filed: tuple[bool, ...]
 
 
-def fades(flight: FleetFlight) -> Iterator[Claim]:
-    """Yield the claim on the lights of a fleet while no picture stands."""
-    stays = stays_of(flight)
+def fades(flight: FleetFlight, stays: Sequence[Stay]) -> Iterator[Claim]:
+    """Yield the claim on the lights of a fleet while no picture stands.
+
+    stays : its pictures, in its order
+    """
     if not stays:
         return
-    knots = _knots(flight)
+    knots = _knots(flight, stays)
     times = np.array([*_dark_times(knots), *_added(flight, knots)])
     if not len(times):
         return
@@ -52,12 +49,10 @@ def fades(flight: FleetFlight) -> Iterator[Claim]:
     yield held(flight.fleet.name, limit, worst, (flight.names[drone],))
 
 
-def _knots(flight: FleetFlight) -> _Knots:
+def _knots(flight: FleetFlight, stays: Sequence[Stay]) -> _Knots:
     """Return the times at which frames begin and end to stand, and the dark times before and after them."""
     begin, end = float(flight.track.breaks[0]), float(flight.track.breaks[-1])
-    frames = [
-        (t, stay.is_recorded) for stay in stays_of(flight) for s in stay.frames for t in (s.start, s.end)
-    ]
+    frames = [(t, stay.is_recorded) for stay in stays for s in stay.frames for t in (s.start, s.end)]
     times = [begin, dark_until(flight), *(t for t, _ in frames), dark_from(flight), end]
     dark = (True, True, *(False for _ in frames), True, True)
     filed = (frames[0][1], frames[0][1], *(is_filed for _, is_filed in frames), frames[-1][1], frames[-1][1])

@@ -22,17 +22,12 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.effects.asked import Asked, asked_effects
 from shotc.passes.verify.fleets.effects.paints import PaintError, paint_error
-from shotc.passes.verify.fleets.effects.stays import Stay, stays_of
+from shotc.passes.verify.fleets.effects.stays import SAME_S, Stay
 from shotc.passes.verify.fleets.flight import FleetFlight
-
-LEVELS = 1.0
-"""Tolerance of a colour, levels of 255: rounding."""
+from shotc.passes.verify.fleets.lights import LEVELS
 
 OFF_PLACE = 1e-3
 """Largest error of the place of an effect, as a share of its picture: rounding."""
-
-SAME_S = 1e-6
-"""Seconds within which a time of the lights is that of a picture: rounding."""
 
 
 class _Compared(NamedTuple):
@@ -58,9 +53,8 @@ class _Measure(NamedTuple):
     value: Callable[[PaintError], float]
 
 
-def effects(flight: FleetFlight) -> Iterator[Claim]:
-    """Yield claims on the effects of all displays of a fleet."""
-    stays = stays_of(flight)
+def effects(flight: FleetFlight, stays: Sequence[Stay]) -> Iterator[Claim]:
+    """Yield claims on the effects of all displays of a fleet; stays : its pictures, in its order."""
     if not stays:
         return
     compared = _compared(flight, stays)
@@ -137,12 +131,7 @@ def _count(flight: FleetFlight, display: Display, lacking: Sequence[Asked], extr
 _MEASURES = (
     _Measure("effect off its colours", "", LEVELS, lambda error: error.levels),
     _Measure("effect off its times", "s", ON_TIME_S, lambda error: error.seconds),
-    _Measure(
-        "effect off its place",
-        "",
-        OFF_PLACE,
-        lambda error: error.share,
-    ),
+    _Measure("effect off its place", "", OFF_PLACE, lambda error: error.share),
 )
 
 

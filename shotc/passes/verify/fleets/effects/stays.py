@@ -10,6 +10,9 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.show import Display, RecordedFlight
 from shotc.passes.verify.fleets.flight import FleetFlight
 
+SAME_S = 1e-6
+"""Seconds within which a time of the lights is that of a picture: rounding."""
+
 
 class Stay(NamedTuple):
     """A picture of a display with all its frames.
