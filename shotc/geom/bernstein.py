@@ -102,6 +102,11 @@ def split_half(ctrl: Array) -> tuple[Array, Array]:
     return np.stack(left, axis=-2), np.stack(right[::-1], axis=-2)
 
 
+def state_at(curve: Piecewise, t: float) -> Array:
+    """Return value, rate and acceleration of a curve at a time, shape (3, D)."""
+    return np.array([curve.derivative(order)(t) for order in range(3)])
+
+
 def quintic_hermite(breaks: Array, value: Array, rate: Array, acceleration: Array) -> Piecewise:
     """Return the C2 piecewise quintic through values, first and second derivatives at the breaks.
 

@@ -74,19 +74,19 @@ class FramingSpan:
 
 
 class _OnCurve:
-    """A leg that starts and ends at rest at the ends of its curve."""
+    """A leg that starts and ends at the ends of its curve."""
 
     __slots__ = ()
     curve: Piecewise
 
     @property
     def pose(self) -> Pose:
-        """Channels at the start of the leg, at rest."""
+        """Channels at the start of the leg."""
         return tuple(map(float, self.curve.ctrl[0, 0]))
 
     @property
     def end_pose(self) -> Pose:
-        """Channels at the end of the leg, at rest."""
+        """Channels at the end of the leg."""
         return tuple(map(float, self.curve.ctrl[-1, -1]))
 
 
@@ -154,7 +154,10 @@ class HoldLeg:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockLeg(_OnCurve):
-    """A shot on its own clock with its run-up and run-out, from rest to rest.
+    """A shot on its own clock with its run-up and run-out.
+
+    It begins and ends at rest, unless the drone flies on from one film to the next: then the first leg ends,
+    and the second one begins, in the same motion.
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
     start, end : mission time of the first and the last filmed frame, seconds

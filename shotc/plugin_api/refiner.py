@@ -6,7 +6,7 @@ Unlike ``plugin_api`` it loads all its names at once, with numpy.
 from __future__ import annotations
 
 from shotc.geom import viewpoint
-from shotc.geom.bernstein import Array, quintic_hermite
+from shotc.geom.bernstein import Array, quintic_hermite, state_at
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import ROUNDING_M, UnitVector, View, aim_at, frustum_margins
 from shotc.geom.ease import minimum_jerk
@@ -168,6 +168,7 @@ __all__ = [
     "shapes",
     "shortfall",
     "spline",
+    "state_at",
     "steady",
     "subdivide",
     "surroundings",

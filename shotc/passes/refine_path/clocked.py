@@ -9,7 +9,7 @@ from math import inf
 
 import numpy as np
 
-from shotc.geom.bernstein import Piecewise
+from shotc.geom.bernstein import Piecewise, state_at
 from shotc.ir.drone import Drone
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.phases import UPRIGHT, Reference
@@ -119,7 +119,7 @@ def _same_span(a: FramingSpan | Reference, b: FramingSpan | Reference) -> bool:
 
 
 def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
-    """Yield how a leg deviates from the rest poses that its neighbours join."""
+    """Yield how a leg deviates from the guide at the ends that its neighbours join."""
     off = max(abs(was.start - now.start), abs(was.end - now.end))
     if off > JOINT_TOLERANCE:
         yield f"its way into or out of the film takes {off:.3g} s more or less"
@@ -128,10 +128,11 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
         distance = float(np.abs(was.ctrl[k, k] - now.ctrl[k, k]).max())
         if distance > JOINT_TOLERANCE:
             yield f"it {name} {distance:.3g} from where the guide does (m or rad)"
-    ends = np.array([now.start, now.end])
-    moving = max(float(np.abs(now.derivative(order)(ends)).max()) for order in (1, 2))
+    motions = [np.array([state_at(curve, t)[1:] for t in (curve.start, curve.end)]) for curve in (was, now)]
+    moving = float(np.abs(motions[1] - motions[0]).max())
     if moving > AT_REST:
-        yield f"it does not begin and end at rest: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
+        still = "at rest" if np.abs(motions[0]).max() <= AT_REST else "with the guide's motion"
+        yield f"it does not begin and end {still}: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
 
 
 def _alike(a: PathLeg, b: PathLeg) -> bool:

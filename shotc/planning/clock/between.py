@@ -17,6 +17,7 @@ from shotc.planning.free_space import STEEPER_RATIO, HalfSpaces
 
 STEP_S = 0.05  # seconds between samples
 STAND_S = 1.0  # seconds that a drone stands at least at each end of the motion
+AT_REST_M_S = 1e-4  # m/s
 
 Span = tuple[float, float]
 """Mission times of the first and the last filmed frame, seconds."""
@@ -93,11 +94,11 @@ def standing_apart(
     """Return the obstacles and their clearances while the drone stands at the start and at the end of a
     motion.
     """
-    begin, end = float(course.start), float(course.end)
+    begin, end, (first, last) = float(course.start), float(course.end), stands_at_ends(course)
     pairs = []
     for film, window, place in (
-        (span[0], (begin - STAND_S, begin), course.ctrl[0, 0, :3]),
-        (span[1], (end, end + STAND_S), course.ctrl[-1, -1, :3]),
+        (span[0], (begin - STAND_S * first, begin), course.ctrl[0, 0, :3]),
+        (span[1], (end, end + STAND_S * last), course.ctrl[-1, -1, :3]),
     ):
         stands = np.tile(place, (1, 6, 1))
         linear_motions = (linearised(motion.what, np.array(window)) for motion in motions)
@@ -134,13 +135,23 @@ def _taper(what: Moving, course: Piecewise, film: float, slope: float) -> Taper 
     """
     if what.apart <= what.clearance:
         return None
-    at = np.array([film])
+    at = np.append(film, course.breaks[[0, -1]][~np.array(stands_at_ends(course))])
     end = course(at)[:, :3] - what.at(at)
     return Taper(what.apart, slope, end, distances(what.part, end))
 
 
+def stands_at_ends(course: Piecewise) -> tuple[bool, bool]:
+    """Return whether the drone is at rest at the start of a course, and at its end.
+
+    Where it is not, it comes from another film, or goes on to one.
+    """
+    first, last = np.abs(course.derivative()(course.breaks[[0, -1]])[:, :3]).max(axis=1) <= AT_REST_M_S
+    return bool(first), bool(last)
+
+
 def _times(course: Piecewise, span: Span) -> tuple[Array, Array]:
-    begin, end = float(course.start) - STAND_S, float(course.end) + STAND_S
+    stands = stands_at_ends(course)
+    begin, end = float(course.start) - STAND_S * stands[0], float(course.end) + STAND_S * stands[1]
     return np.append(np.arange(begin, span[0], STEP_S), span[0]), np.append(
         np.arange(span[1], end, STEP_S), end
     )

@@ -1,4 +1,4 @@
-"""Constraints of a motion on the clock: rest at its ends, limits of the drone, keyframes at given places."""
+"""Constraints of a motion on the clock: its ends, limits of the drone, keyframes at given places."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from shotc.geom.bspline import SplineFunctionals, control_rows, hull_rows
 from shotc.ir.keyed import arrivals, is_keyed, place_of
 from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.solvers.spline_problem import Cones
+from shotc.solvers.spline_problem import Cones, Equalities
 
 NEARLY_SHARE = 0.999  # share of each limit that is used, as a margin for rounding
+ORDERS = 3  # of a state: value, rate, acceleration
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,16 +52,39 @@ def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]
     return tuple(bounds)
 
 
-def at_rest(breaks: Array) -> SplineFunctionals:
-    """Return the rows for the first and second derivative of a spline at both ends.
+def held_ends(breaks: Array, begin: Array | None = None, end: Array | None = None) -> Equalities:
+    """Return the constraints of a spline in three dimensions at both ends: the given state, or else rest.
 
     breaks : shape (P + 1,), mission times in seconds
+    begin, end : value, rate and acceleration there, shape (3, 3); None for rest at any value
     """
-    parts = []
-    for order in (1, 2):
+    piece, weight, value = [], [], []
+    for order in range(ORDERS):
         rows = control_rows(breaks, order)
-        parts.append((rows.piece[[0, -1]], rows.weight[[0, -1]]))
-    return SplineFunctionals(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
+        for at, state in ((0, begin), (-1, end)):
+            if state is None and order == 0:
+                continue
+            piece.append(rows.piece[at])
+            weight.append(rows.weight[at])
+            value.append(np.zeros(3) if state is None else state[order])
+    return Equalities(SplineFunctionals(np.array(piece), np.array(weight)), np.array(value))
+
+
+def with_ends(breaks: Array, coef: Array, begin: Array | None, end: Array | None) -> Array:
+    """Return a spline's coefficients with exactly the states of ``held_ends``, without a solver's tolerance.
+
+    Only then do two motions of which one goes over into the other have no jumps.
+
+    coef : shape (P + 5, 3)
+    """
+    exact = coef.copy()
+    if begin is not None:
+        rows = np.array([control_rows(breaks, order).weight[0, :ORDERS] for order in range(ORDERS)])
+        exact[:ORDERS] = np.linalg.solve(rows, begin)
+    if end is not None:
+        rows = np.array([control_rows(breaks, order).weight[-1, -ORDERS:] for order in range(ORDERS)])
+        exact[-ORDERS:] = np.linalg.solve(rows, end)
+    return exact
 
 
 def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:

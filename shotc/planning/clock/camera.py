@@ -11,7 +11,6 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import (
     SplineFunctionals,
-    control_rows,
     count,
     energy_rows,
     hull_rows,
@@ -21,11 +20,11 @@ from shotc.geom.bspline import (
 from shotc.geom.vec import Vec2
 from shotc.ir.drone import Drone
 from shotc.planning.clock.aims import CameraTask, aims_at
-from shotc.planning.clock.bounds import NEARLY_SHARE, at_rest
+from shotc.planning.clock.bounds import NEARLY_SHARE, held_ends, with_ends
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.position import UNSEEN_WEIGHT
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
+from shotc.solvers.spline_problem import Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import minimise
 
 SAMPLES_PER_PIECE = 4  # samples of the camera angles
@@ -53,12 +52,14 @@ class AngleTask:
     kept : (yaw, pitch) that the camera keeps, rad; None where it follows the subjects
     course : reference (yaw, pitch) at times (M,), shape (M, 2), unwrapped, where a refiner has found them
         already
-    ends : camera yaw, pitch and body yaw at the start and at the end, shape (2, 3); None where they are free
+    begin, end : camera yaw, camera pitch and body yaw at the start and at the end, with their rates and
+        accelerations, shape (3, 3), SI; None for rest at any angles
     """
 
     camera_task: CameraTask
     kept: Vec2 | None = None
-    ends: Array | None = None
+    begin: Array | None = None
+    end: Array | None = None
     course: Callable[[Array], Array] | None = None
 
 
@@ -76,28 +77,15 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> CameraAngl
     reference = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW_WEIGHT * step])
     goals = _goals(rows, np.sqrt(weight), reference) + _smooth(clock, angle_task.camera_task.smoother)
-    problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
+    ends = angle_task.begin, angle_task.end
+    problem = SplineProblem(count(breaks), goals, held_ends(breaks, *ends), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT_RAD2_S)
     if solved.coef is None:
         return CameraAngles(None, solved.status)
-    coef = solved.coef.copy()
+    coef = with_ends(breaks, solved.coef, *ends)
     if drone.body == "follow-camera":
         coef[:, BODY] = coef[:, YAW]
     return CameraAngles(spline(breaks, coef), solved.status)
-
-
-def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:
-    """Return the constraints of rest at both ends, and of the angles there where these are given."""
-    rest = at_rest(breaks)
-    still = np.zeros((len(rest.piece), 3))
-    if angle_task.ends is None:
-        return Equalities(rest, still)
-    values = control_rows(breaks)
-    rows = SplineFunctionals(
-        np.concatenate([rest.piece, values.piece[[0, -1]]]),
-        np.concatenate([rest.weight, values.weight[[0, -1]]]),
-    )
-    return Equalities(rows, np.concatenate([still, angle_task.ends]))
 
 
 def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
@@ -116,9 +104,9 @@ def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
 
 def _wound(angle_task: AngleTask, yaw: Array) -> Array:
     """Return a yaw moved by whole turns to be nearest to the given start angle, if there is one."""
-    if angle_task.ends is None:
+    if angle_task.begin is None:
         return yaw
-    return np.asarray(yaw + 2 * np.pi * np.round((angle_task.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
+    return np.asarray(yaw + 2 * np.pi * np.round((angle_task.begin[0, YAW] - yaw[0]) / (2 * np.pi)))
 
 
 def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:

@@ -14,7 +14,7 @@ from shotc.geom.pieces import Mask
 from shotc.ir.drone import LensRange
 from shotc.ir.keyed import arrivals, is_keyed, zoom_parts
 from shotc.ir.mission import Shot
-from shotc.planning.clock.run_up import RunUp
+from shotc.planning.clock.run_up import Link, RunUp
 
 PIECE_S = 0.5  # seconds of a piece, where the shot is not very long
 FEWEST_PIECES, MOST_PIECES = 16, 240  # pieces of the film
@@ -43,7 +43,7 @@ class Clock:
         return np.asarray((middle > self.start) & (middle < self.end))
 
 
-def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp], lens: LensRange | None) -> Clock:
+def clock_of(shot: Shot, start: float, ways: tuple[RunUp | Link, RunUp], lens: LensRange | None) -> Clock:
     """Return the knots of a shot whose first frame is at ``start``.
 
     ways : run-up and run-out

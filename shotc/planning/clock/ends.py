@@ -10,12 +10,11 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.vec import Vec3
 from shotc.ir.drone import Drone
 from shotc.ir.mission import Shot
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.moving import COMFORT_M, Moving
-from shotc.planning.clock.run_up import RunUp, run_ups
+from shotc.planning.clock.run_up import Departure, Link, RunUp, run_ups
 from shotc.planning.free_space import MARGIN_M, FreeSpace, bounds_slack
 
 MOST_ASIDES = 2  # searches for a place of rest aside
@@ -24,13 +23,6 @@ STEP_S = 0.1  # seconds between samples of a rest
 FARTHEST_M, RING_M = 15.0, 1.0  # metres, largest shift and distance of rings
 PLACES_ON_RING = 16  # places on a ring
 RISES_RAD = (0.0, 0.5, 1.0)  # rad, elevations of the rings, besides straight up
-
-
-class Departure(NamedTuple):
-    """Where and when a run-up begins: a place in W, metres, and a mission time, seconds."""
-
-    place: Vec3
-    time: float
 
 
 class EndRequirement(NamedTuple):
@@ -79,20 +71,18 @@ def run_up_and_out(
     start: float,
     required: EndRequirement,
     around: tuple[tuple[Moving, ...], FreeSpace],
-) -> tuple[RunUp, RunUp]:
+) -> tuple[RunUp | Link, RunUp]:
     """Return the run-up and the run-out that meet a requirement; around : obstacles and the free space."""
     end = start + (shot.timing.duration or 0.0)
     before, after = (
         run_up.lasting(required.longer)
         for run_up in run_ups(camera_task.mission, camera_task.drone, shot, start)
     )
-    if required.begins is not None:
-        before = before.begun(np.array(required.begins.place), start - required.begins.time)
     if required.ends_aside[0]:
         before = _led(before, -1.0, start, around, camera_task.drone)
     if required.ends_aside[1]:
         after = _led(after, 1.0, end, around, camera_task.drone)
-    return before, after
+    return before if required.begins is None else before.begun(required.begins, start), after
 
 
 def _led(

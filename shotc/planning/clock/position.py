@@ -14,7 +14,7 @@ from shotc.geom.bspline import DEGREE, SplineFunctionals, control_rows, count, e
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.ir.smoothing import NORMAL_S
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
-from shotc.planning.clock.bounds import at_rest, limits_of
+from shotc.planning.clock.bounds import held_ends, limits_of, with_ends
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.task import ClockTask, drawn_to, ideal_of
@@ -179,7 +179,8 @@ def _fly(task: ClockTask, free: tuple[HalfSpaceRows, ...]) -> PositionResult:
     if now.best is None:
         return PositionResult(None, now.status, float("nan"), now.rounds, now.relaxation)
     assert now.best.coef is not None
-    return PositionResult(spline(breaks, now.best.coef), now.best.status, now.best.objective, now.rounds)
+    coef = with_ends(breaks, now.best.coef, _begin(task), None)
+    return PositionResult(spline(breaks, coef), now.best.status, now.best.objective, now.rounds)
 
 
 def _astray(task: ClockTask, solution: SplineSolution) -> bool:
@@ -244,19 +245,22 @@ def _base(task: ClockTask) -> SplineProblem:
         Goal(_scaled(rows, weight), weight[:, None] * drawn_to(task, times)),
         Goal(_scaled(jerk, gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
-    rest = at_rest(breaks)
-    still = Equalities(rest, np.zeros((len(rest.piece), 3)))
-    held = _through(task, still)
+    held = _through(task, held_ends(breaks, _begin(task)))
     return SplineProblem(count(breaks), goals, held, (), limits_of(task.drone.limits, breaks))
 
 
-def _through(task: ClockTask, rest: Equalities) -> Equalities:
-    """Return the constraints of rest at both ends, and of given places at their times.
+def _begin(task: ClockTask) -> Array | None:
+    """Return the state in which the motion begins, shape (3, 3); None for rest at any place."""
+    return None if task.begins is None else task.begins.position
+
+
+def _through(task: ClockTask, ends: Equalities) -> Equalities:
+    """Return the constraints of both ends, and of given places at their times.
 
     Where the camera stands still in W for a while, all coefficients of that interval equal its place. For a
     hold beside a moving target the place is constrained at the start and at the end of the hold.
     """
-    breaks, rows, values = task.clock.breaks, [rest.rows], [rest.value]
+    breaks, rows, values = task.clock.breaks, [ends.rows], [ends.value]
     for bound in (*task.held, *(() if task.free else task.bound)):
         if bound.still:
             first, last = np.searchsorted(breaks, np.array([bound.start, bound.end]) - ROUNDING_S)

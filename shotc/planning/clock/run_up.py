@@ -1,7 +1,8 @@
 """The run-up to a shot's motion and the run-out after it: straight, between rest and the speed at the film's
 ends.
 
-The place of rest is free, so that each takes the least time between rest and that speed.
+The place of rest is free, so that each takes the least time between rest and that speed. Where the time does
+not allow this, a run-up begins where the drone is: at rest, or in the run-out of the film before it.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from math import hypot, inf
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.ease import minimum_jerk
 from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
 from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.path import ClockLeg
 from shotc.planning.timing.straight import LineLimits
 
 STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
@@ -33,6 +35,46 @@ done.
 
 Places = Callable[[float], tuple[float, float, float]]
 """The reference position of a camera at a mission time, metres."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Departure:
+    """Where and when a run-up begins.
+
+    time : mission time, seconds
+    position : value, rate and acceleration in W, shape (3, 3), SI
+    angles : the same of camera yaw, camera pitch and body yaw; None where they are free, at rest
+    cut : the leg before it, which ends there without rest; None if the drone is at rest
+    """
+
+    time: float
+    position: Array
+    angles: Array | None = None
+    cut: ClockLeg | None = None
+
+    @classmethod
+    def at_rest(cls, place: Array, time: float) -> Departure:
+        """Return the departure from rest at a place, shape (3,), metres."""
+        return cls(time, np.array([place, np.zeros(3), np.zeros(3)]))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Link:
+    """A motion from the run-out of one film to the beginning of the next one, without a stop.
+
+    curve : positions over time relative to the beginning of that film, seconds
+    """
+
+    curve: Piecewise
+
+    @property
+    def seconds(self) -> float:
+        """Its duration."""
+        return -float(self.curve.start)
+
+    def at(self, seconds: Array) -> Array:
+        """Return positions (M, 3) at times (M,) relative to the film's beginning, seconds."""
+        return self.curve(np.clip(seconds, self.curve.start, self.curve.end))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,11 +100,15 @@ class RunUp:
         """Return the run-up with its duration multiplied by ``times``."""
         return replace(self, seconds=times * self.seconds)
 
-    def begun(self, place: Array, seconds: float) -> RunUp:
-        """Return the run-up that begins at rest at a place, shape (3,), metres, and lasts some seconds.
+    def begun(self, departure: Departure, film: float) -> RunUp | Link:
+        """Return the run-up with a given beginning to a film whose first frame is at mission time ``film``.
 
-        It takes no less time than this one, which needs the least.
+        From rest it takes no less time than this one, which needs the least.
         """
+        seconds, place = film - departure.time, departure.position[0]
+        if departure.cut is not None:
+            states = np.stack([departure.position, [self.place, self.velocity, np.zeros(3)]], axis=1)
+            return Link(quintic_hermite(np.array([-seconds, 0.0]), *states))
         longer = replace(self, seconds=max(seconds, self.seconds), shift=np.ones(3))
         return replace(longer, shift=place - (longer.rest - longer.shift))
 

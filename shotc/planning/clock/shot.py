@@ -26,7 +26,7 @@ from shotc.planning.clock.between import lacking_each
 from shotc.planning.clock.bounds import Bound, bounds_of
 from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock, clock_of
-from shotc.planning.clock.ends import END_REQUIREMENTS, Departure, EndRequirement, run_up_and_out
+from shotc.planning.clock.ends import END_REQUIREMENTS, EndRequirement, run_up_and_out
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
@@ -175,7 +175,8 @@ def _with_camera(task: ClockTask, position: Piecewise) -> Piecewise | Status:
     """
     ideal = task.shot.ideal
     aim = None if ideal is None else ideal.aim
-    turned = turn(AngleTask(task.camera_task, aim), task.clock, position)
+    begin = None if task.begins is None else task.begins.angles
+    turned = turn(AngleTask(task.camera_task, aim, begin), task.clock, position)
     if turned.curve is None:
         return turned.status
     lens = _lens(task.camera_task, task.clock)
@@ -252,23 +253,25 @@ def _task(
     task = ClockTask(
         camera_task, shot, clock, run_ups, spaces.flight, motions, passing, others.visibility, bound
     )
-    return led(task if required.begins is None else replace(task, held=_held(task, required.begins)))
+    return led(
+        task
+        if required.begins is None
+        else replace(task, begins=required.begins, held=_standing_camera(task))
+    )
 
 
-def _held(task: ClockTask, begins: Departure) -> tuple[Bound, ...]:
-    """Return the places of a motion that begins where the drone is: that one, and the film's if its author
-    gave a standing camera. Otherwise that camera would still come to rest in the first frames.
+def _standing_camera(task: ClockTask) -> tuple[Bound, ...]:
+    """Return the place of a standing camera that the author gave, for a run-up whose beginning is given;
+    otherwise that camera would still come to rest in the first frames.
     """
     shot, clock = task.shot, task.clock
-    begin = float(clock.breaks[0])
-    first = Bound(NO_KEYFRAME, begins.place, begin, begin)
     if shot.ideal is None or not shot.ideal.placed:
-        return (first,)
+        return ()
     places = ideal_places(task.mission, shot, clock.start, _filmed(task))
     if np.ptp(places, axis=0).max() > SAME_PLACE_M:
-        return (first,)
+        return ()
     x, y, z = map(float, places[0])
-    return first, Bound(NO_KEYFRAME, (x, y, z), clock.start, clock.end)
+    return (Bound(NO_KEYFRAME, (x, y, z), clock.start, clock.end),)
 
 
 def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -> Missed | None:

@@ -19,12 +19,11 @@ from shotc.ir.drone import Drone
 from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.path import ClockLeg
 from shotc.ir.phases import Phase
-from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import TargetConflict, Transfer
-from shotc.planning.clock.ends import Departure, EndRequirement
+from shotc.planning.clock.ends import EndRequirement
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import LESS_SHARE, NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
@@ -44,8 +43,6 @@ SHORTEST_S = 1.0  # least seconds of track for a shot
 LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
 """Seconds by which a start is put off, to find a motion or a transfer to it."""
 ROUNDING_S = 1e-6  # seconds
-TURN_TRIES = 3  # departures that are tried until the turn before them is known
-SPARE_SHARE = 0.05  # of a turn's time, by which the next departure is later: another one has another turn
 SLIGHT_M = 0.02  # metres, tolerance of a deviation
 WHOLE_S, SOON_S, WIDER_RATIO = 1.0, 40.0, 1.05
 """Spacing of the starts that are tried for a fence, seconds; the delay from which on they lie farther apart,
@@ -84,14 +81,14 @@ class TooLate:
     earliest : a feasible start, or None
     outside : the target whose track is too short from then on, or None
     before : phases of the drone until then, or until it arrives too late
-    run_up : duration of the run-up, seconds
+    run_up : duration of the run-up, seconds; None if it goes on from the film before
     """
 
     late: float
     earliest: float | None
     outside: OutsideTrack | None
     before: tuple[Phase, ...]
-    run_up: float
+    run_up: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,6 +97,7 @@ class Reached:
 
     placed : the shot as it is planned; it is shorter than stated if the track of its target ends first
     ends_aside : whether the shot begins, and whether it ends, away from moving obstacles
+    cut : the leg before it with a shorter run-out, if this one goes on from there
     """
 
     placed: PlacedShot
@@ -107,6 +105,7 @@ class Reached:
     transfer: Transfer
     late: float
     ends_aside: tuple[bool, bool]
+    cut: ClockLeg | None = None
 
     def better(self, near: Reached) -> bool:
         """Return whether this shot, with other ends, is better than one whose transfer or run-ups lack
@@ -239,37 +238,6 @@ def later(reach: Reach, placed: PlacedShot, start: float) -> Reached | None:
     return None
 
 
-def without_stop(
-    mission: MissionIR, drone: Drone, late: Reached, reach: ReachFrom, departure: Departure
-) -> Reached | None:
-    """Return a shot that is late with a run-up that begins where the drone is, so that it does not stop on
-    the way.
-
-    The result is None if it is late as well, if it lacks clearances of transfers, or if its film differs by
-    more than a preference may cost. Where the author gave the place, it may not differ.
-
-    reach : plans the shot and the transfer to it, which then only turns the drone
-    departure : where the drone is, and when it can leave
-    """
-    camera_task, leg = CameraTask(mission, drone, late.placed.subjects), late.shot.leg
-    ideal = late.placed.shot.ideal
-    for _ in range(TURN_TRIES):
-        reached = reach((EndRequirement(0.0, 1.0, begins=departure),))
-        if not isinstance(reached, Reached) or reached.transfer.met is not None:
-            return None
-        if max(reached.shot.lacks) > max(SLIGHT_M, *late.shot.lacks):
-            return None
-        if reached.late <= ROUNDING_S:
-            placed = ideal is not None and ideal.placed
-            off = reached.shot.off - late.shot.off
-            film = cost(camera_task, (leg.start, leg.end), leg.curve, reached.shot.leg.curve)
-            return reached if (off <= SLIGHT_M if placed else film.little) else None
-        # The turn towards the first pose takes that long.
-        later_by = (1.0 + SPARE_SHARE) * reached.late + ROUNDING_S
-        departure = departure._replace(time=departure.time + later_by)
-    return None
-
-
 def too_late(
     phases: Iterable[Phase], requested: Reached, first: Reached, short: OutsideTrack | None
 ) -> TooLate:
@@ -282,7 +250,7 @@ def too_late(
     before = [phase for phase in phases if phase.end <= leg.start + ROUNDING_S]
     if not there:
         before[-1] = replace(before[-1], end=leg.start + first.late)
-    run_up = leg.start - float(leg.curve.start)
+    run_up = leg.start - float(leg.curve.start) if first.cut is None else None
     return TooLate(requested.late, leg.start if there else None, short, tuple(before), run_up)
 
 

@@ -18,7 +18,7 @@ from shotc.planning.clock.bounds import Bound
 from shotc.planning.clock.clock import Clock
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.moving import LinearMotion
-from shotc.planning.clock.run_up import RunUp
+from shotc.planning.clock.run_up import Departure, Link, RunUp
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.layered import VisiblePath, VisibleSubject, led_round
@@ -40,6 +40,7 @@ class ClockTask:
     bound : places that it passes at given times
     free : whether ``bound`` is ignored
     held : other places that it passes, always
+    begins : where its run-up begins; None if it begins at rest anywhere
     apart : half-spaces for the clearances of transfers in run-up and run-out
     course : initial guess at the clock's breaks, for corridors; the ideal where it is None
     """
@@ -47,7 +48,7 @@ class ClockTask:
     camera_task: CameraTask
     shot: Shot
     clock: Clock
-    ways: tuple[RunUp, RunUp]
+    ways: tuple[RunUp | Link, RunUp]
     space: FreeSpace
     motions: tuple[LinearMotion, ...]
     passing: tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]
@@ -55,6 +56,7 @@ class ClockTask:
     bound: tuple[Bound, ...] = ()
     free: bool = False
     held: tuple[Bound, ...] = ()
+    begins: Departure | None = None
     apart: tuple[HalfSpaceRows, ...] = ()
     course: VisiblePath | None = None
 

@@ -18,6 +18,7 @@ from shotc.plugin_api.refiner import (
     ClockLeg,
     quintic_hermite,
     restrict,
+    state_at,
     turn,
 )
 from shotc_casadi.clock.problem import guess
@@ -53,9 +54,9 @@ def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None 
     camera : yaw and pitch over mission time, if they are known already; the body yaw follows
     """
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
-    ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])
+    begin, end = (state_at(leg.curve, t)[:, angles] for t in (leg.curve.start, leg.curve.end))
     clock = Clock(leg.curve.breaks, leg.start, leg.end)
-    turned = turn(AngleTask(subject.camera_task, subject.aim, ends, camera), clock, position)
+    turned = turn(AngleTask(subject.camera_task, subject.aim, begin, end, camera), clock, position)
     if turned.curve is None:
         return None
     breaks = position.breaks

@@ -48,10 +48,10 @@ def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
     label = mission.origins.key(shot.path) if start is None else timing_value(mission, shot.path, "start")
     starts = "has no start" if start is None else f"starts at {plain(start)} s"
     labels, beginning = [label], f"shot `{shot.id}` {starts}"
-    sum_up = (
-        f"{at_least(late.before[-1].end)} s, with a stop before the run-up, which is the last "
-        f"{late.run_up:.1f} s"
-    )
+    stop = "without a stop on the last transit"
+    if late.run_up is not None:
+        stop = f"with a stop before the run-up, which is the last {late.run_up:.1f} s"
+    sum_up = f"{at_least(late.before[-1].end)} s, {stop}"
     notes = [f"before it come {phases_in_words(late.before)}: {sum_up}"]
     remedies = []
     if late.earliest is not None:
