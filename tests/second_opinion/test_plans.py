@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from tests.support.few import few
+from tests.support.films_in_a_row import SKIER, THIRD
 from tests.support.generated.missions import mission
 from tests.support.second_opinion.case import Case
 from tests.support.second_opinion.compiled import case_of
@@ -87,3 +88,10 @@ def drawn(seed: int, folder: Path, refiner: str | None = None) -> Case:
         (folder / name).write_bytes(data)
     (folder / "mission.yaml").write_text(asked.text, encoding="utf-8")
     return case_of(folder / "mission.yaml", refiner)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("refiner", few(["none", "ours"], ["none"]))
+def test_a_flight_from_film_to_film_without_a_stop_is_as_it_says(refiner: str, tmp_path: Path) -> None:
+    (tmp_path / "mission.yaml").write_text(SKIER + THIRD, encoding="utf-8")
+    assert judge(case_of(tmp_path / "mission.yaml", refiner)) == []

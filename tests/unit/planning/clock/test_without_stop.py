@@ -19,6 +19,7 @@ from shotc.passes.verify.shape import joint_steps
 from shotc.planning.clock.bounds import with_ends
 from shotc.planning.clock.run_up import Departure, Link, RunUp
 from tests.support.compiled import compiled_text
+from tests.support.films_in_a_row import SKIER, THIRD
 
 MISSION = """\
 shotc: 1
@@ -32,26 +33,6 @@ shots:
 """
 ABOVE = "kind: crane, target: cyclist, azimuth: 0 deg, distance: [16, 8], altitude: [4, 12]"
 STANDING = "kind: static, at: [-110, 70, 12], look_at: cyclist"
-
-
-SKIER = """\
-shotc: 1
-mission: skier
-targets:
-  skier: {track: {points: [[0, 200, 0.9], [6, 120, 0.9], [0, -100, 0.9]], speed: 5.5 m/s},
-          radius: 0.5, height: 1.8}
-drones:
-  cam: {model: x500, home: [-30, 150, 0]}
-shots:
-  - {id: follow, kind: chase, drone: cam, target: skier, distance: 11, altitude: 6.5,
-     timing: {start: 12, duration: 8}}
-  - {id: drop, kind: lateral, drone: cam, target: skier, side: right, distance: 13, altitude: 6.4,
-     timing: {start: 27, duration: 5}}
-"""
-THIRD = """\
-  - {id: last, kind: chase, drone: cam, target: skier, distance: 12, altitude: 6,
-     timing: {start: 38, duration: 4}}
-"""
 
 
 def planned(shot: str, start: float) -> Compilation:
