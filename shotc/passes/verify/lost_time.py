@@ -2,7 +2,8 @@
 
 The least time of a way follows from its shape (``least_time``). A flight may take a multiple of it, because
 the estimate has no limit of jerk between the ends, and a constant. In a shot with a duration
-the least times are scaled to the duration first. On transits turns count once, from end to end, and the way
+the least times are scaled to the duration first. Rest between two keyframes is lost time in whole, but for
+the holds that the mission asks for. On transits turns count once, from end to end, and the way
 is bounded by the straight line and by what stands, so that neither a turning camera nor circles take up time.
 """
 
@@ -68,7 +69,7 @@ class Transfer(NamedTuple):
     @property
     def idle(self) -> float:
         """Seconds of rest."""
-        return self.end - self.start - float(np.diff(self.moves, axis=1).sum())
+        return _idle((self.start, self.end), self.moves)
 
 
 def lost_time(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -> Iterator[Claim]:
@@ -102,6 +103,15 @@ def _moves(curve: Piecewise, span: tuple[float, float]) -> Array:
     return np.array([(breaks[part[0]], breaks[part[-1] + 1]) for part in moves]).reshape(-1, 2)
 
 
+def _idle(span: tuple[float, float], moves: Array) -> float:
+    return span[1] - span[0] - float(np.diff(moves, axis=1).sum())
+
+
+def _rest(curve: Piecewise, span: tuple[float, float]) -> float:
+    """Return the seconds of rest between two times; 0 where the second one is no later than the first."""
+    return _idle(span, _moves(curve, span)) if span[0] < span[1] else 0.0
+
+
 def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield the claim on the time that a shot loses on its legs between keyframes."""
     known = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
@@ -119,9 +129,16 @@ def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator
             lost += [(leg.lasts - SLOWER_RATIO * scale * leg.least, leg.start) for leg in legs]
             # The constant of each of many short legs would add up.
             lost.append((lasts - SLOWER_RATIO * scale * least, legs[0].start))
+            lost += _rests([leg for leg in legs if leg.least > 0.0])
     worst, when = max(lost)
     limit = Limit(BETWEEN, KEYFRAMES_S, "s", placed.shot.path, shot=placed.shot.id)
     yield claim(flight, limit, WorstValue(worst, when, "sampled"))
+
+
+def _rests(legs: Sequence[_Leg]) -> Iterator[tuple[float, float]]:
+    """Yield the seconds of rest on all of some legs, with the start of the one that has most of them."""
+    if legs:
+        yield sum(leg.idle for leg in legs), max(legs, key=lambda leg: leg.idle).start
 
 
 class _Stretch(NamedTuple):
@@ -146,11 +163,15 @@ def _stretches(placed: PlacedShot) -> Iterator[_Stretch]:
 
 
 class _Leg(NamedTuple):
-    """A way from one keyframe to the next: its mission time, and its flown and least seconds."""
+    """A way from one keyframe to the next: its mission time, and its flown and least seconds.
+
+    idle : seconds of rest on it
+    """
 
     start: float
     lasts: float
     least: float
+    idle: float
 
 
 def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretch: _Stretch) -> list[_Leg]:
@@ -164,7 +185,10 @@ def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretc
         begins = [at[i] + (holds[i] if i == a else 0.0) for i in range(a, b)]
         ends = [at[i] for i in range(a + 1, b + 1)]
         whole = least_times(flight.track.curve, (begins[0], ends[-1]), flight.drone, share, smoother)
-        legs += [_Leg(t, u - t, whole.between(t, u)) for t, u in zip(begins, ends, strict=True)]
+        legs += [
+            _Leg(t, u - t, whole.between(t, u), _rest(flight.track.curve, (t, u)))
+            for t, u in zip(begins, ends, strict=True)
+        ]
     return legs
 
 

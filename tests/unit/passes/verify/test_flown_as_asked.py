@@ -79,6 +79,7 @@ OTHERS: dict[str, tuple[str, str, str]] = {
         "start_azimuth: 180 deg, timing: {start: 80}}",
         "V066",
     ),
+    "a hold of 3 s": (", hold: 2}", ", hold: 3}", "V066"),
     "a hold of 62 s": (", hold: 2}", ", hold: 62}", "V066"),
     "five times slower": ("altitude: [8, 24]}", "altitude: [8, 24], timing: {duration: 40}}", "V066"),
     "a film that begins late": (

@@ -89,6 +89,23 @@ def test_a_hold_lasts_as_long_as_it_is_asked_for(hold: float, holds: bool, durat
     assert claim(ir, BETWEEN).holds is holds
 
 
+@pytest.mark.parametrize(
+    ("asked", "rests", "holds"), [(0.0, 1.0, False), (2.0, 3.0, False), (2.0, 2.0, True)]
+)
+@pytest.mark.parametrize("duration", [None, 60.0])
+def test_a_second_of_rest_that_nobody_asked_for_is_lost(
+    asked: float, rests: float, holds: bool, duration: float | None
+) -> None:
+    ir = free(waiting(TRACK, SHOT[0], rests), hold=asked, timing=Timing(duration=duration))
+    assert claim(ir, BETWEEN).holds is holds
+
+
+def test_between_two_keyframes_at_the_same_time_nothing_is_lost() -> None:
+    first, *others = TRACK.keyframes
+    track = replace(TRACK, keyframes=(first, replace(first, index=1), *others[1:]))
+    assert claim(free(track), BETWEEN).holds
+
+
 def test_a_keyframe_a_nanosecond_outside_its_shot_hides_no_lost_time() -> None:
     slow = stretched(TRACK, SHOT, 8.0)
     first, *others = slow.keyframes
