@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from re import sub
 from typing import Any
 from unicodedata import normalize
 from uuid import NAMESPACE_URL, uuid5
@@ -22,6 +23,11 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR
 
+NOT_ALLOWED = r"[^A-Za-z0-9 _-]"
+"""What an application id may not hold: the viewer replaces it, with a warning on the terminal."""
+
+NUMBER_DIGITS = 6
+
 
 def record(plan: VerifiedIR) -> bytes:
     """Return the recording of a plan, as a file with its footer.
@@ -32,8 +38,12 @@ def record(plan: VerifiedIR) -> bytes:
 
 
 def _plain(name: str) -> str:
-    """Return a name in the characters that the viewer allows in an application id."""
-    return normalize("NFKD", name).encode("ascii", "ignore").decode()
+    """Return a name in the characters that the viewer allows in an application id.
+
+    A name that loses some gets a number, so that two names stay different.
+    """
+    plain = sub(NOT_ALLOWED, "-", normalize("NFKD", name).encode("ascii", "ignore").decode())
+    return plain if plain == name else f"{plain} {uuid5(NAMESPACE_URL, name).hex[:NUMBER_DIGITS]}"
 
 
 def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> bytes:

@@ -136,7 +136,9 @@ HANDS = [
     ),
     hand("G021", "raise it by 2.00 m", ("height: -2}", "height: 0}")),
     hand("G022", "lower it by 9.00 m", ("height: 12}", "height: 3}")),
-    hand("G023", "move the target or the zone by 7.01 m", ("center: [1, 0]", "center: [8.01, 0]")),
+    hand(
+        "G023", "move the target or the zone by 7.01 m to the side", ("center: [1, 0]", "center: [8.01, 0]")
+    ),
     hand("G024", "lower it by 22.00 m", ("height: 130}", "height: 108}")),
     hand(
         "G050",

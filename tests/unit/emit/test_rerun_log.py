@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+import rerun as rr
 from rerun.chunk import RrdReader
 
 from shotc.emit.rerun_log import EMITTER
 from shotc.emit.rerun_log.layout import panels
 from shotc.emit.rerun_log.motion import camera_quaternions
 from shotc.emit.rerun_log.opening import filmed_span, first_stand
+from shotc.emit.rerun_log.recording import recorded
 from shotc.emit.rerun_log.series import clearance_plot, motion_plots, sample_times
 from shotc.emit.rerun_log.text import certificate_text, phase_texts, quantity
 from shotc.emit.triangles import solid_mesh
@@ -143,6 +145,24 @@ def test_the_recorded_layout_has_that_view_and_plays_from_the_first_filmed_frame
     assert found["EyeControls3D:look_target"] == pytest.approx(stand.look, abs=1e-4)
     assert found["TimePanelBlueprint:timeline"] == "filmed"
     assert found["TimePanelBlueprint:time_selection"] == {"min": 22_000_000_000, "max": 52_000_000_000}
+
+
+NAMES = ("Möwe, Take 2", "v1.2 (final)", "塔", "橋")
+
+
+@pytest.mark.slow
+def test_each_name_of_a_mission_gives_a_layout_of_its_own_without_a_warning(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """The viewer keeps one layout for each application id, and warns of letters that it replaces."""
+    plan, path = orbit_plan(), tmp_path / "named.rrd"
+    ids = set()
+    for name in NAMES:
+        mission = replace(plan.trajectory.keyframes.mission, name=name)
+        path.write_bytes(recorded(mission, "", lambda stream: stream.log("/note", rr.TextDocument("x"))))
+        ids |= {found.application_id for found in RrdReader(path).recordings()}
+    assert len(ids) == len(NAMES)
+    assert "WARN" not in capfd.readouterr().err
 
 
 def test_the_recording_has_one_active_layout(rrd: Path) -> None:

@@ -41,6 +41,14 @@ def test_a_target_that_stands_or_begins_in_a_zone_is_told() -> None:
     assert "begins in" in begins.message
 
 
+def test_the_way_out_of_a_zone_does_not_lead_into_the_ground() -> None:
+    """The floor of the hall is 0.9 m below the walker, its nearest wall 3 m to the east."""
+    text = MISSION.replace("track: WAY", "at: [22, 0, 0.9]")
+    assert "move the target or the zone by 3.01 m to the side" in str(covered(text)[0].help)
+    assert covered(text.replace("[22, 0, 0.9]", "[25.01, 0, 0.9]")) == []
+    assert covered(text.replace("[20, 0, 5]", "[16.99, 0, 5]")) == []
+
+
 @pytest.mark.parametrize(
     "way",
     [

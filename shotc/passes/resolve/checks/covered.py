@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from math import inf
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -88,8 +89,9 @@ def _diagnostic(mission: MissionIR, target: Target, zone: Zone, met: TargetPosit
     comes = met.time > 0.0
     state = "comes into" if comes else "stands in" if target.track is None else "begins in"
     where = f"at t = {met.time:.2f} s its centre is at {place}" if comes else f"its centre is at {place}"
-    deep = at_least(depth(zone.solid, met.at) + LEAST_MOVE_M)
-    by = "" if comes or target.track is not None else f" by {deep} m"
+    # A zone stands on the ground as a rule, so the nearest way out of it may lead down into the ground.
+    aside = at_least(depth(zone.solid._replace(bottom=-inf, top=inf), met.at) + LEAST_MOVE_M)
+    by = "" if comes or target.track is not None else f" by {aside} m to the side"
     return Diagnostic(
         "G023",
         f"target `{target.name}` {state} keep-out zone `{zone.name}`",
