@@ -11,11 +11,22 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.light_colors import light_colors
 from shotc.ir.path import CHANNELS
+from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 EVERY = 2.0
 """Seconds between the rows of a drone."""
+
+FLEET_EVERY = 4.0
+"""Seconds between the rows of a fleet, of which a few drones are written, and the mean of all."""
+
+FLEET_DRONES = 8
+MEAN_COLUMNS = ("t", "x", "y", "z", "red", "green", "blue")
 
 SAME = 3e-3
 """Metres, radians or seconds by which two numbers may differ.
@@ -39,6 +50,8 @@ def sampled(plan: VerifiedIR, diagnostics: Sequence[Diagnostic]) -> str:
     lines = [f"told {' '.join(codes)}".rstrip(), *_shown(plan)]
     for track in plan.trajectory.drones:
         lines += _drone(track)
+    for flight in plan.trajectory.fleets:
+        lines += _fleet(flight)
     return "\n".join([*lines, ""])
 
 
@@ -49,14 +62,37 @@ def _shown(plan: VerifiedIR) -> Iterator[str]:
 
 
 def _drone(track: DroneTrajectory) -> Iterator[str]:
-    yield ""
-    yield f"drone {track.drone}"
-    for phase in track.phases:
-        yield f"{phase.start:9.3f} {phase.end:9.3f} {phase.name} {phase.shot or ''}".rstrip()
-    yield f"{'t':>9} {' '.join(f'{name:>9}' for name in CHANNELS)}"
+    yield from _phases(f"drone {track.drone}", track.phases)
     times = np.append(np.arange(0.0, track.curve.end, EVERY), track.curve.end)
-    for t, row in zip(times, track.curve(times), strict=True):
-        yield f"{t:9.3f} {' '.join(f'{value + 0.0:9.3f}' for value in row)}"
+    yield from _table(("t", *CHANNELS), np.column_stack([times, track.curve(times)]))
+
+
+def _fleet(flight: FleetTrajectory) -> Iterator[str]:
+    """Yield the rows of a fleet: lights are shares of full brightness, in the mean of all drones."""
+    yield from _phases(f"fleet {flight.fleet}", flight.phases)
+    for frame in flight.shown:
+        yield f"{frame.start:9.3f} {frame.end:9.3f} {frame.display} {frame.picture} {frame.index}"
+    end = float(flight.breaks[-1])
+    times = np.append(np.arange(0.0, end, FLEET_EVERY), end)
+    flown = places(flight.breaks, flight.coef, times)
+    lights = light_colors(flight, times).mean(axis=0) / 255.0
+    yield from _table(MEAN_COLUMNS, np.column_stack([times, flown.mean(axis=0), lights]))
+    for k in np.linspace(0, len(flown) - 1, FLEET_DRONES).astype(int):
+        yield f"drone {k}"
+        yield from _table(MEAN_COLUMNS[:4], np.column_stack([times, flown[k]]))
+
+
+def _phases(head: str, phases: Sequence[Phase]) -> Iterator[str]:
+    yield ""
+    yield head
+    for phase in phases:
+        yield f"{phase.start:9.3f} {phase.end:9.3f} {phase.name} {phase.shot or ''}".rstrip()
+
+
+def _table(names: Sequence[str], rows: Array) -> Iterator[str]:
+    yield " ".join(f"{name:>9}" for name in names)
+    for row in rows:
+        yield " ".join(f"{value + 0.0:9.3f}" for value in row)
 
 
 def differences(recorded: str, now: str) -> list[str]:

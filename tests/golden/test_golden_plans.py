@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.golden.missions import as_text, missions, recorded
+from tests.golden.missions import SPECS, as_text, missions, recorded
 from tests.golden.sample import SAME, differences
 from tests.support.compiled import compiled
 from tests.support.few import few
@@ -20,6 +20,12 @@ LONG = {
     *("5035-statues", "5040-together", "5043-standing"),
 }
 """Drawn missions that take seconds each: `make fuzz` plans them; the others are of all kinds, too."""
+SHOWS = ("elbe-lights", "harbour-letters", "lakeside-show")
+"""Missions that take a second or more."""
+CASES = [
+    pytest.param(case, marks=pytest.mark.long) if case in SHOWS else case
+    for case in few(MISSIONS, MISSIONS.keys() - LONG)
+]
 PLAN = """\
 told V033
 shot a1 tower 1.000
@@ -31,7 +37,7 @@ drone cam
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", few(MISSIONS, MISSIONS.keys() - LONG))
+@pytest.mark.parametrize("name", CASES)
 def test_a_plan_is_as_recorded(name: str, pytestconfig: pytest.Config) -> None:
     now, path = as_text(compiled(MISSIONS[name])), recorded(name)
     found = differences(path.read_text(encoding="utf-8") if path.exists() else "", now)
@@ -50,6 +56,11 @@ def test_drawn_missions_of_all_kinds_are_among_them() -> None:
         *("keyframes", "static", "orbit", "spiral", "elevator", "dolly", "crane", "top-down", "follow-path"),
         *("chase", "lead", "lateral", "flyby", "framing"),
     }
+
+
+def test_every_mission_of_the_tree_that_can_be_planned_is_among_them() -> None:
+    unplanned = {"quay"}  # its targets are still to be identified: quay-identified has them
+    assert {path.stem for path in SPECS.rglob("*.yaml")} - MISSIONS.keys() == unplanned
 
 
 def test_every_record_has_its_mission() -> None:

@@ -114,10 +114,22 @@ def halved(points: Array, n: int) -> Array:
             continue
         middle = (low + high) // 2
         cut = len(group) * (middle - low) // (high - low)
-        axis = int(np.argmax(np.ptp(group, axis=0)))
-        order = np.argpartition(group[:, axis], cut)
-        groups += [(group[order[:cut]], low, middle), (group[order[cut:]], middle, high)]
+        first = _lowest(group[:, int(np.argmax(np.ptp(group, axis=0)))], cut)
+        groups += [(group[first], low, middle), (group[~first], middle, high)]
     return means
+
+
+def _lowest(values: Array, count: int) -> NDArray[np.bool_]:
+    """Return which values are the lowest ``count``, shape (M,); of equal ones the first.
+
+    The order in which a partition leaves values, and which of equal ones it takes, depends on the processor.
+    The value at its cut does not.
+    """
+    at_cut = np.partition(values, count)[count]
+    lowest = np.asarray(values < at_cut)
+    equal = np.flatnonzero(values == at_cut)
+    lowest[equal[: count - np.count_nonzero(lowest)]] = True
+    return lowest
 
 
 def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clusters:

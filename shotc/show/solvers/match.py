@@ -90,7 +90,8 @@ def _parts(starts: Array, goals: Array, drones: Index, places: Index) -> list[tu
     x, g = starts[drones] - starts[drones].mean(axis=0), goals[places] - goals[places].mean(axis=0)
     widest = np.linalg.eigh(x.T @ x + g.T @ g)[1][:, -1]
     half = len(drones) // 2
-    drones, places = drones[np.argsort(x @ widest)], places[np.argsort(g @ widest)]
+    drones = drones[np.argsort(x @ widest, kind="stable")]
+    places = places[np.argsort(g @ widest, kind="stable")]
     return [
         *_parts(starts, goals, drones[:half], places[:half]),
         *_parts(starts, goals, drones[half:], places[half:]),

@@ -55,6 +55,15 @@ def test_a_line_is_shared_evenly() -> None:
     assert goals == pytest.approx([0.125, 0.375, 0.625, 0.875], abs=2e-3)
 
 
+def test_points_are_halved_in_their_order_on_every_processor() -> None:
+    row = np.arange(300)
+    points = np.column_stack([np.where(row % 3 == 0, 0.0, np.where(row % 3 == 1, 1.0, 2.0)), 1e-3 * row])
+    ones = np.flatnonzero(row % 3 == 1)
+    first = np.sort(np.concatenate([np.flatnonzero(row % 3 == 0), ones[:50]]))
+    expected = [points[first].mean(axis=0), np.delete(points, first, axis=0).mean(axis=0)]
+    np.testing.assert_array_equal(halved(points, 2), expected)
+
+
 def test_every_point_is_of_its_nearest_goal() -> None:
     points = ball_of(6000)
     found = centroids(points, 150)
