@@ -13,7 +13,7 @@ from shotc.cli import console
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.registry import FAMILIES, registry
 
-_WIDTH = 80
+_LINE_CHARACTERS = 80
 
 Code = Annotated[
     str | None,
@@ -47,7 +47,7 @@ def _page(info: CodeInfo) -> str:
         f"{info.code} {info.slug}: {info.summary}",
         f"{info.severity}, since {info.since}",
         "",
-        fill(info.explanation, _WIDTH),
+        fill(info.explanation, _LINE_CHARACTERS),
     ]
     if info.failing:
         parts += ["", "Raises it:", "", indent(info.failing.rstrip(), "    ")]

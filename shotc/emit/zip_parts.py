@@ -8,7 +8,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 EPOCH = (1980, 1, 1, 0, 0, 0)
 """The date of all members, the earliest that ZIP allows."""
 
-READABLE = 0o644 << 16
+READABLE_MODE = 0o644 << 16
 
 
 def entry(name: str, method: int = ZIP_DEFLATED) -> ZipInfo:
@@ -16,7 +16,7 @@ def entry(name: str, method: int = ZIP_DEFLATED) -> ZipInfo:
     info = ZipInfo(name, EPOCH)
     info.compress_type = method
     info.create_system = 3  # Unix, whatever the machine is
-    info.external_attr = READABLE
+    info.external_attr = READABLE_MODE
     return info
 
 

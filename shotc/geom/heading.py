@@ -19,7 +19,7 @@ from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.proof import MOST_HALVINGS, OPEN_PIECES_LIMIT, ProvedExtreme, norm
 from shotc.geom.vec import wrapped
 
-_NO_LENGTH = 1e-12
+_STANDING_M_S = 1e-12
 
 
 class _GroundMotion(NamedTuple):
@@ -83,7 +83,7 @@ def _bounds(motion: _GroundMotion) -> tuple[Array, Array]:
     cross = v[:, :, None, 0] * a[:, None, :, 1] - v[:, :, None, 1] * a[:, None, :, 0]
     least, most = along.min(axis=1) ** 2, (norm(v) ** 2).max(axis=1)
     quotients = np.stack([cross.min(axis=(1, 2)), cross.max(axis=(1, 2))])[:, None] / np.maximum(
-        np.stack([least, most]), _NO_LENGTH
+        np.stack([least, most]), _STANDING_M_S
     )
     rate = motion.rate.ctrl[:, :, 0]
     fastest = np.maximum(

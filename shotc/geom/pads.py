@@ -11,7 +11,7 @@ from typing import NamedTuple
 from shotc.geom.apart import Distances
 from shotc.geom.vec import Vec3
 
-ROUNDING = 1e-6  # metres, or shares of the separation
+ROUNDING_TOLERANCE = 1e-6  # metres, or shares of the separation
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
 Cell = tuple[int, int, int]
 
@@ -32,7 +32,7 @@ def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
     """
     points = [(x / apart.across, y / apart.across, z / apart.upright) for x, y, z in pads]
     measure = _measure(apart)
-    best = Pair(0, 0, 1.0 - ROUNDING)
+    best = Pair(0, 0, 1.0 - ROUNDING_TOLERANCE)
     cells: dict[Cell, list[int]] = defaultdict(list)
     order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # a shuffled order
     for index, i in enumerate(order):
@@ -40,7 +40,7 @@ def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
         share, j = min(near, default=(1.0, 0))
         if share < best.share:
             best = Pair(min(i, j), max(i, j), share)
-            if share <= ROUNDING:
+            if share <= ROUNDING_TOLERANCE:
                 return best
             cells = defaultdict(list)
             for k in order[: index + 1]:
@@ -60,7 +60,7 @@ def first_nearer(one: Sequence[Vec3], other: Sequence[Vec3], reach: float) -> Pa
         cells[_cell(pad, reach)].append(i)
     for j, pad in enumerate(other):
         distance, i = min(((dist(one[i], pad), i) for i in _around(cells, pad, reach)), default=(reach, 0))
-        if distance < reach - ROUNDING:
+        if distance < reach - ROUNDING_TOLERANCE:
             return Pair(i, j, distance / reach)
     return None
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR
 
-MOST_MOVED = 0.2
+MOST_MOVED_SHARE = 0.2
 """Largest displacement of a camera by a preference, as a share of its distance from its target.
 
 The subject is then at most a fourth larger or a sixth smaller, and its view turns by at most asin(0.2) =
@@ -23,7 +23,7 @@ PICTURE_SHARE = 0.5
 It may do so for a promise about its subjects, or because something hides them.
 """
 
-UNWATCHED = 10.0
+UNWATCHED_M = 10.0
 """Distance that counts for a shot without a named target, metres."""
 
 LONGEST_WAIT_S = 10.0

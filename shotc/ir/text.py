@@ -8,7 +8,7 @@ from typing import Any
 
 from shotc.ir.origin import OriginMap
 
-DIGITS = 9
+TEXT_DIGITS = 9
 
 
 def dump(value: Any) -> str:
@@ -55,7 +55,7 @@ def _flat(value: Any) -> bool:
 
 def _scalar(value: Any) -> str:
     if isinstance(value, float):
-        return f"{value:.{DIGITS}g}"
+        return f"{value:.{TEXT_DIGITS}g}"
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
     if isinstance(value, list | tuple):

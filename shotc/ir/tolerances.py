@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-AT_REST = 1e-6
+REST_TOLERANCE = 1e-6
 """Rate and acceleration of any channel that still count as rest, m/s and rad/s (m/s^2 and rad/s^2)."""
 
 OFF_LINE_HALF_FRAMES = 0.01
 """Largest distance of a reference from the line between two keyframes' references, screen units."""
 
-ON_PLACE = 1e-3
+PLACE_TOLERANCE = 1e-3
 """Tolerance of keyframes and holds, metres (radians for the camera)."""
 
 ON_TIME_S = 1e-3

@@ -32,7 +32,7 @@ FLIGHT_POINTS = 6
 UNIT_TOLERANCE = 1e-6
 """Tolerance of a unit vector's length, and of the position of a group's part against its body, metres."""
 
-FASTEST = (1 + 1e-6) * LARGEST["speed"]
+FASTEST_M_S = (1 + 1e-6) * LARGEST["speed"]
 """Largest speed of a target, m/s: the largest that a mission can write, plus the rounding of its rows."""
 
 Fault = tuple[str, str]
@@ -84,8 +84,8 @@ def _motion(track: Track) -> str:
         return "its times do not rise"
     rows = zip(pairwise(track.times), pairwise(track.points), strict=True)
     fastest = max([hypot(*track.after), *(dist(p, q) / (t - s) for (s, t), (p, q) in rows)])
-    if fastest > FASTEST:
-        return f"it moves at up to {plain(up(fastest, 2))} m/s, faster than {FASTEST:g} m/s"
+    if fastest > FASTEST_M_S:
+        return f"it moves at up to {plain(up(fastest, 2))} m/s, faster than {FASTEST_M_S:g} m/s"
     return ""
 
 

@@ -44,7 +44,7 @@ from shotc.ir.path import (
     leg_of,
     with_need,
 )
-from shotc.ir.preference import MOST_MOVED, PICTURE_SHARE, UNWATCHED, given_up, prefers_free_pictures
+from shotc.ir.preference import MOST_MOVED_SHARE, PICTURE_SHARE, UNWATCHED_M, given_up, prefers_free_pictures
 from shotc.ir.sampling import projected, seen
 from shotc.ir.setpoints import Asked
 from shotc.ir.trajectory import DroneTrajectory
@@ -77,12 +77,12 @@ __all__ = [
     "CAM_YAW",
     "HALF_SHARE",
     "HFOV",
-    "MOST_MOVED",
+    "MOST_MOVED_SHARE",
     "NO_HALF_SPACES",
     "PICTURE_SHARE",
     "ROUNDING_M",
     "SIGHT",
-    "UNWATCHED",
+    "UNWATCHED_M",
     "AngleTask",
     "Array",
     "Asked",

@@ -45,7 +45,7 @@ position of a shot turns with the course, so without smoothing a sidestep would 
 height known to 2 cm would let the camera climb and sink twice a second with 0.2 m/s^2.
 """
 
-_SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
+_COURSE_SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
 
 MOST_UNSURE_S = 20.0
 """Seconds on the way back to the plan, after which a target counts where it is expected, and no longer where
@@ -346,7 +346,7 @@ class Guidance:
             moves = np.hypot(velocity[:, 0], velocity[:, 1]) > STILL_M_S
             course = np.arctan2(velocity[:, 1], velocity[:, 0])
             turned = wrapped(course - track.heading(time) - self._course)
-            self._course = np.where(moves, self._course + _SHARE * turned, self._course)
+            self._course = np.where(moves, self._course + _COURSE_SHARE * turned, self._course)
         return self._course
 
     def _risen(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
@@ -356,7 +356,7 @@ class Guidance:
         if isinstance(shot, Chased):
             planned = self.world.mission.target(shot.target).at(time)[2]
             rise = known[shot.target].now.position[:, 2] - planned
-            self._rise = self._rise + _SHARE * (rise - self._rise)
+            self._rise = self._rise + _COURSE_SHARE * (rise - self._rise)
         return self._rise
 
 

@@ -20,7 +20,7 @@ from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleState
 ATTITUDE_GAIN, RATE_GAIN = 60.0, 14.0
 """1/s^2 and 1/s; RotorPy's own 3000 and 360 oscillate with a motor lag of 0.05 s."""
 
-RTOL = 1e-3
+INTEGRATOR_TOLERANCE = 1e-3
 
 
 class RotorPyPlant:
@@ -44,7 +44,10 @@ class RotorPyPlant:
             for place in first.position
         ]  # fmt: skip
         self._body = Multirotor(
-            parameters, self._states[0], "cmd_acc", integrator_kwargs={"method": "RK23", "rtol": RTOL}
+            parameters,
+            self._states[0],
+            "cmd_acc",
+            integrator_kwargs={"method": "RK23", "rtol": INTEGRATOR_TOLERANCE},
         )
 
     def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:

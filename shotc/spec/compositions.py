@@ -8,8 +8,8 @@ from __future__ import annotations
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 
-_THIRD = 1 / 3
-_PHI = 0.236
+_THIRD_SHARE = 1 / 3
+_PHI_SHARE = 0.236
 
 
 def _centre_and_corners(distance: float) -> tuple[Vec2, ...]:
@@ -24,23 +24,25 @@ def _centre_and_corners(distance: float) -> tuple[Vec2, ...]:
 
 COMPOSITIONS: dict[str, Composition] = {
     "center": Composition("center", points=((0.0, 0.0),)),
-    "thirds": Composition("thirds", points=_centre_and_corners(_THIRD)),
-    "thirds-first": Composition("thirds-first", u_lines=(-_THIRD, _THIRD), last=((0.0, 0.0),)),
-    "thirds-lines": Composition("thirds-lines", u_lines=(-_THIRD, _THIRD), v_lines=(-_THIRD, _THIRD)),
-    "phi": Composition("phi", points=_centre_and_corners(_PHI)),
+    "thirds": Composition("thirds", points=_centre_and_corners(_THIRD_SHARE)),
+    "thirds-first": Composition("thirds-first", u_lines=(-_THIRD_SHARE, _THIRD_SHARE), last=((0.0, 0.0),)),
+    "thirds-lines": Composition(
+        "thirds-lines", u_lines=(-_THIRD_SHARE, _THIRD_SHARE), v_lines=(-_THIRD_SHARE, _THIRD_SHARE)
+    ),
+    "phi": Composition("phi", points=_centre_and_corners(_PHI_SHARE)),
     "keep": Composition("keep", keep=True),
 }
 
 NAMED_POINTS: dict[str, Vec2] = {
     "center": (0.0, 0.0),
-    "left-third": (-_THIRD, 0.0),
-    "right-third": (_THIRD, 0.0),
-    "upper-third": (0.0, _THIRD),
-    "lower-third": (0.0, -_THIRD),
-    "upper-left": (-_THIRD, _THIRD),
-    "upper-right": (_THIRD, _THIRD),
-    "lower-left": (-_THIRD, -_THIRD),
-    "lower-right": (_THIRD, -_THIRD),
+    "left-third": (-_THIRD_SHARE, 0.0),
+    "right-third": (_THIRD_SHARE, 0.0),
+    "upper-third": (0.0, _THIRD_SHARE),
+    "lower-third": (0.0, -_THIRD_SHARE),
+    "upper-left": (-_THIRD_SHARE, _THIRD_SHARE),
+    "upper-right": (_THIRD_SHARE, _THIRD_SHARE),
+    "lower-left": (-_THIRD_SHARE, -_THIRD_SHARE),
+    "lower-right": (_THIRD_SHARE, -_THIRD_SHARE),
 }
 
 # The names for a keyframe's `frame`: a point, or a composition.

@@ -14,7 +14,7 @@ import numpy as np
 
 from shotc.plugin_api import Diagnostic, MovingLeg, Outcome, PassContext, PathIR, Piecewise, unrefined
 from shotc.plugin_api.refiner import (
-    MOST_MOVED,
+    MOST_MOVED_SHARE,
     Array,
     CameraTask,
     FlownShot,
@@ -112,7 +112,7 @@ def _near(subject: ShotContext, refined: Refined, plain: Refined) -> bool:
     named = {k.target for k in subject.placed.keyframes if k.target is not None}
     centres = [np.array(subject.mission.target(name).centre) for name in named]
     distances = np.min([np.linalg.norm(before - centre, axis=1) for centre in centres] or [np.inf], axis=0)
-    return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * distances).all())
+    return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED_SHARE * distances).all())
 
 
 def _result(

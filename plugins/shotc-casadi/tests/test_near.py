@@ -15,7 +15,7 @@ from shotc_casadi.clock.several import WHOLE
 from shotc_casadi.clock.shown import held_whole, visibility_of
 
 from shotc.api import Compilation, PlanOptions, compile_source
-from shotc.ir.preference import MOST_MOVED
+from shotc.ir.preference import MOST_MOVED_SHARE
 from shotc.plugin_api.refiner import ideal_places
 from tests.support.refined_clocks import refine_clocks
 
@@ -69,7 +69,7 @@ def test_where_nothing_is_promised_a_camera_stays_as_near_to_its_place_as_a_pref
 ) -> None:
     text = FLYBY.replace("altitude: 3", f"altitude: {altitude}")
     (guide, far), (ours, _) = (flown(subject(text, step)) for step in ("solve-path-qp", "refine-path"))
-    assert (ours <= np.maximum(MOST_MOVED * far, guide + ROUNDING)).all()
+    assert (ours <= np.maximum(MOST_MOVED_SHARE * far, guide + ROUNDING)).all()
     assert ours.max() > guide.max() + 0.1
     assert dict(subject(text).path.stats)["s.refine_status"] == "solved"
 
@@ -95,7 +95,7 @@ def test_a_subject_that_hardly_fits_is_kept_whole_by_going_back_a_little() -> No
     assert visibility_of(of, plain.leg).cropped > max(0.01, visibility_of(of, of.leg).cropped)
     assert in_frame(BESIDE) == 1.0
     (guide, far), (ours, _) = (flown(subject(BESIDE, step)) for step in ("solve-path-qp", "refine-path"))
-    assert (ours <= np.maximum(MOST_MOVED * far, guide + ROUNDING)).all()
+    assert (ours <= np.maximum(MOST_MOVED_SHARE * far, guide + ROUNDING)).all()
 
 
 def test_what_crops_its_subject_more_than_the_guide_is_not_flown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,7 +136,7 @@ def test_what_is_promised_is_kept_at_any_distance() -> None:
     assert compiled(PROMISED, "none").plan is None
     assert in_frame(PROMISED) == 1.0
     ours, far = flown(subject(PROMISED))
-    assert (ours > MOST_MOVED * far).any()
+    assert (ours > MOST_MOVED_SHARE * far).any()
 
 
 @pytest.mark.long

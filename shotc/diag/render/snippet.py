@@ -15,9 +15,9 @@ Style = Literal["plain", "gutter", "error", "warning", "second", "strong"]
 Piece = tuple[str, Style]
 Line = list[Piece]
 
-_WIDTH = 100
+_LINE_CELLS = 100
 """Largest width of source text shown of one line, in terminal cells."""
-_LEAD = 30
+_LEAD_CELLS = 30
 """Width kept before a span if the line is cut on the left, in terminal cells."""
 _CUT = "…"
 
@@ -82,17 +82,20 @@ def _marked_line(content: str, marks: Sequence[_Mark], style: Style, gutter: int
 
 def _window(content: str, mark: _Mark) -> tuple[int, int]:
     """Return the part of a line to show, as offsets: the whole line, or a part around the mark."""
-    if len(content) <= _WIDTH and cell_len(visible(content)) <= _WIDTH:
+    if len(content) <= _LINE_CELLS and cell_len(visible(content)) <= _LINE_CELLS:
         return 0, len(content)
     left = 0
-    if cell_len(visible(content[max(0, mark.start - _WIDTH) : mark.end - 1])) > _WIDTH - _LEAD:
-        left = max(0, mark.start - 1 - _LEAD)
-    elif mark.start > _WIDTH:
-        left = mark.start - 1 - _LEAD
+    if (
+        cell_len(visible(content[max(0, mark.start - _LINE_CELLS) : mark.end - 1]))
+        > _LINE_CELLS - _LEAD_CELLS
+    ):
+        left = max(0, mark.start - 1 - _LEAD_CELLS)
+    elif mark.start > _LINE_CELLS:
+        left = mark.start - 1 - _LEAD_CELLS
     right, cells = left, 0
     while right < len(content):
         cells += cell_len(visible(content[right]))
-        if cells > _WIDTH:
+        if cells > _LINE_CELLS:
             break
         right += 1
     return left, right

@@ -51,7 +51,9 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 COARSEST_RATIO = 16.0  # largest factor on the tolerances; framing is loosened first, then position
-HALVINGS = 6  # bisection steps of the search for the least coarseness that fits into the autopilot's memory
+COARSENESS_HALVINGS = (
+    6  # bisection steps of the search for the least coarseness that fits into the autopilot's memory
+)
 
 
 class MavlinkEmitter:
@@ -198,7 +200,7 @@ class _Job:
         if len(flight.items) <= self.dialect.most_items:
             return flight
         low, high = 0.0, 2.0
-        for _ in range(HALVINGS):
+        for _ in range(COARSENESS_HALVINGS):
             middle = (low + high) / 2
             trial = self._write(thinner.legs(_coarse(intended, middle), even=False), coarser=True)
             low, high = (low, middle) if len(trial.items) <= self.dialect.most_items else (middle, high)

@@ -12,7 +12,7 @@ from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.emit.storyboard.splats import OnPage, perspective, raster_of
 from shotc.geom.bernstein import Array
-from shotc.geom.surface.triangles import TINY, cross
+from shotc.geom.surface.triangles import TINY_SQUARE, cross
 from shotc.ir.mission import MissionIR
 
 PIXELS_PER_IN = 165.0
@@ -77,7 +77,7 @@ def draw_on_map(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
     faces = faces_of(mission.meshes, -FAR_M * ahead)
     a, b, c = (faces.triangles[:, k] for k in range(3))
     normal = cross(b - a, c - a)
-    across = np.abs(normal @ ahead) / np.maximum(np.linalg.norm(normal, axis=1), TINY)
+    across = np.abs(normal @ ahead) / np.maximum(np.linalg.norm(normal, axis=1), TINY_SQUARE)
     flat = Faces(
         faces.triangles,
         shades(np.array(STONE), UPRIGHT_BRIGHTNESS_RATIO + (1.0 - UPRIGHT_BRIGHTNESS_RATIO) * across),

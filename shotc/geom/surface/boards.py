@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.triangles import cross
 
-_NO_LENGTH = 1e-300  # replaces a zero length
+_NO_LENGTH_M = 1e-300  # replaces a zero length
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +51,7 @@ def billboards(eye: Array, centre: Array, width: Array | float, height: Array | 
     level[size <= 0.0] = [1.0, 0.0, 0.0]
     level /= np.linalg.norm(level, axis=1)[:, None]
     steep = cross(level, offset)
-    steep /= np.maximum(np.linalg.norm(steep, axis=1), _NO_LENGTH)[:, None]
+    steep /= np.maximum(np.linalg.norm(steep, axis=1), _NO_LENGTH_M)[:, None]
     right = level * np.broadcast_to(width, (len(eye),))[:, None]
     up = steep * np.broadcast_to(height, (len(eye),))[:, None]
     return Billboards(eye, centre - 0.5 * (right + up), right, up)
@@ -63,7 +63,7 @@ def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboar
     Everything within a cylinder's radius is behind its rectangle, except above the cylinder.
     """
     level = (eye - centre) * [1.0, 1.0, 0.0]
-    level /= np.maximum(np.linalg.norm(level, axis=1, keepdims=True), _NO_LENGTH)
+    level /= np.maximum(np.linalg.norm(level, axis=1, keepdims=True), _NO_LENGTH_M)
     right = 2.0 * radius * np.column_stack([-level[:, 1], level[:, 0], level[:, 2]])
     up = np.broadcast_to(np.array([0.0, 0.0, height]), eye.shape)
     return Billboards(eye, centre + radius * level - 0.5 * (right + up), right, up)

@@ -15,14 +15,14 @@ from shotc.geom.pieces import Pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
 from shotc.geom.surface.near import BATCH_ITEMS, nearest
 from shotc.geom.surface.tree import Surface, surface_of, under_points
-from shotc.geom.surface.triangles import TINY
+from shotc.geom.surface.triangles import TINY_SQUARE
 
 EDGE_M = 1e-6
 """Least distance from the edge of the ground, metres; a nearer curve is not proved to stay above ground."""
 SAMPLES_PER_PIECE = 9
 """Samples a piece for the distance by which a curve leaves the ground."""
 _NEXT = [1, 2, 0]
-_WEIGHT = 1e-9
+_EDGE_WEIGHT = 1e-9
 """Tolerance of a point in a triangle, as a barycentric coordinate: points on edges are in both triangles."""
 
 
@@ -113,8 +113,8 @@ def heights(triangles: Array, xy: Array) -> Array:
     areas = edges[..., 0] * offset[..., 1] - edges[..., 1] * offset[..., 0]
     weights = areas[:, _NEXT]
     total = weights[:, 0] + weights[:, 1] + weights[:, 2]
-    share = weights / np.where(np.abs(total) > TINY, total, np.nan)[:, None]
-    share[~(np.minimum(np.minimum(share[:, 0], share[:, 1]), share[:, 2]) >= -_WEIGHT)] = np.nan
+    share = weights / np.where(np.abs(total) > TINY_SQUARE, total, np.nan)[:, None]
+    share[~(np.minimum(np.minimum(share[:, 0], share[:, 1]), share[:, 2]) >= -_EDGE_WEIGHT)] = np.nan
     share = np.clip(share, 0.0, 1.0)
     total = share[:, 0] + share[:, 1] + share[:, 2]
     return np.asarray(np.einsum("kv,kv->k", share, triangles[..., 2]) / total)

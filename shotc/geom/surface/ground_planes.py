@@ -19,7 +19,7 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.surface.ground import Ground
 from shotc.geom.surface.planes import Kept, Planes
 from shotc.geom.surface.tree import Pairs, in_plan
-from shotc.geom.surface.triangles import TINY, cross, dot
+from shotc.geom.surface.triangles import TINY_SQUARE, cross, dot
 
 MOST_PIVOTS = 40
 """Most exchanges of a basis; about twelve suffice."""
@@ -104,7 +104,7 @@ def _over(triangles: Array, low: Array, high: Array) -> Array:
     y = np.stack([low[:, 1], low[:, 1], high[:, 1], high[:, 1]], axis=1)
     one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     turn = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    turn = np.where(np.abs(turn) > TINY, turn, np.nan)[:, None]
+    turn = np.where(np.abs(turn) > TINY_SQUARE, turn, np.nan)[:, None]
     dx, dy = x - triangles[:, 0, :1], y - triangles[:, 0, 1:2]
     u = (dx * other[:, 1:2] - dy * other[:, :1]) / turn
     v = (dy * one[:, :1] - dx * one[:, 1:2]) / turn
@@ -171,4 +171,4 @@ def _weights(basis: Array, p: Array) -> Array:
     sides, offset = plan[:, _NEXT] - plan, p[:, None] - plan
     areas = (sides[..., 0] * offset[..., 1] - sides[..., 1] * offset[..., 0])[:, _NEXT]
     total = areas.sum(axis=1, keepdims=True)
-    return areas / np.where(np.abs(total) > TINY, total, np.inf)
+    return areas / np.where(np.abs(total) > TINY_SQUARE, total, np.inf)

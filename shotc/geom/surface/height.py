@@ -18,7 +18,7 @@ from shotc.geom.proof import MOST_HALVINGS, OPEN_PIECES_LIMIT
 from shotc.geom.surface.distance import Gap, LeastSearch, Numbered, SurfaceBound, halve, middles, run
 from shotc.geom.surface.ground import Ground, NoGround, heights, leaves, under
 from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
-from shotc.geom.surface.triangles import TINY, dot, highest, lowest
+from shotc.geom.surface.triangles import TINY_SQUARE, dot, highest, lowest
 
 PARTED_M = 1e-9
 """Least separation of a triangle from a piece by a side, metres; at a common side both triangles count."""
@@ -151,4 +151,4 @@ def _parted(triangles: Array, ctrl: Array) -> Mask:
     inward = np.stack([-edges[..., 1], edges[..., 0]], axis=-1) * np.sign(turn)[:, None, None]
     reach = np.einsum("kmd,ked->kme", ctrl[..., :2], inward).max(axis=1)
     border = dot(plan, inward) - PARTED_M * np.sqrt(dot(edges, edges))
-    return np.asarray((reach < border).any(axis=1) | (np.abs(turn) <= TINY))
+    return np.asarray((reach < border).any(axis=1) | (np.abs(turn) <= TINY_SQUARE))

@@ -14,7 +14,7 @@ from shotc.geom.surface.triangles import closest, dot, segment_distances
 
 BATCH_ITEMS = 2048
 """Queries that are processed together, so that their pairs fit the processor's cache."""
-ROUNDING = 1e-9
+ROUNDING_TOLERANCE = 1e-9
 """Tolerance of the distance of a box compared with a triangle in it: metres, and share of the distance."""
 CENTRE_WEIGHT = 0.25
 """Weight of the squared distance from a box's middle, relative to that from the box, in the descent."""
@@ -62,7 +62,9 @@ def _nearest(surface: Surface, p: Array, limit: Array, out: NearestOnSurface) ->
 
     def meets(item: IntArray, low: Array, high: Array) -> Mask:
         its = p[item]
-        np.minimum.at(reach, item, _surely_within(its, low, high) * (1.0 + ROUNDING) + ROUNDING)
+        np.minimum.at(
+            reach, item, _surely_within(its, low, high) * (1.0 + ROUNDING_TOLERANCE) + ROUNDING_TOLERANCE
+        )
         return np.asarray(box_distances(its, its, low, high) < reach[item])
 
     pairs = search(surface, len(p), meets)

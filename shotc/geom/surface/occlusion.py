@@ -32,7 +32,7 @@ RAY_SHARE = 1.0 - 1e-6
 """Share of the way to a cell at which rays end, so that the support of a target does not hide it."""
 BESIDE_M = 1e-6
 """Distance at which all rays pass an omitted triangle, metres; far above rounding."""
-_NO_LENGTH = 1e-300  # replaces a zero length; a quotient by it is far above any share
+_NO_LENGTH_M = 1e-300  # replaces a zero length; a quotient by it is far above any share
 
 
 def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
@@ -146,7 +146,7 @@ class _Pyramids:
     def _reach_planes(self, frame: IntArray, corners: Array, beside: float) -> Mask:
         """Return which triangles' planes the rays reach or approach within ``beside`` metres, (K,)."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH)[:, None]
+        normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH_M)[:, None]
         far = dot(normal, corners[:, 0])
         nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)
         return np.asarray(np.abs(far) - nearest <= beside)
@@ -161,7 +161,7 @@ def _pyramids(boards: Billboards, n: int) -> _Pyramids:
         [cross(ends[:, k], edge) for k, edge in ((0, right), (2, right), (0, up), (1, up))], axis=1
     )
     inward = np.einsum("fsd,fsd->fs", normals, np.stack([up, -up, right, -right], axis=1))
-    length = np.maximum(np.linalg.norm(normals, axis=2), _NO_LENGTH)
+    length = np.maximum(np.linalg.norm(normals, axis=2), _NO_LENGTH_M)
     return _Pyramids(ends, np.asarray(normals * (np.sign(inward) / length)[:, :, None]))
 
 
@@ -193,7 +193,7 @@ class _Sliding:
     def meets(self, far: float, about: float) -> Meets:
         """Return the test for ``search``: whether the boxes meet boxes of the tree."""
         # At share x of the way: x speed >= low - eye, and x speed >= eye - high, axis by axis.
-        speed = np.where(self.speed == 0.0, _NO_LENGTH, self.speed)
+        speed = np.where(self.speed == 0.0, _NO_LENGTH_M, self.speed)
         per, enters = 1.0 / speed, speed > 0.0
         first_eye, last_eye = np.ascontiguousarray(self.high), np.ascontiguousarray(self.low)
 

@@ -33,7 +33,7 @@ _SPREAD = (
     (4, 0x10C30C30C30C30C3),
     (2, 0x1249249249249249),
 )
-_CELLS = 2**21 - 1  # of a Morton code, along each axis
+_AXIS_CELLS = 2**21 - 1  # of a Morton code, along each axis
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,7 +94,7 @@ def _morton(points: Array) -> Array:
     """Return the Morton codes (N,) of points (N, 3); neighbours in this order are near (Morton 1966)."""
     low = points.min(axis=0)
     size = max(float((points - low).max()), 1e-9)  # one scale for all axes: cells are cubes
-    cells = np.minimum((points - low) * (_CELLS / size), _CELLS).astype(np.uint64)
+    cells = np.minimum((points - low) * (_AXIS_CELLS / size), _AXIS_CELLS).astype(np.uint64)
     for shift, mask in _SPREAD:
         cells = (cells | (cells << np.uint64(shift))) & np.uint64(mask)
     code: Array = cells[:, 0] | (cells[:, 1] << np.uint64(1)) | (cells[:, 2] << np.uint64(2))

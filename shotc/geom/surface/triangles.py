@@ -13,7 +13,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 
-TINY = 1e-300  # m^2 or m^4, replaces a zero length or area
+TINY_SQUARE = 1e-300  # m^2 or m^4, replaces a zero length or area
 _NEXT = [1, 2, 0]
 
 
@@ -61,7 +61,7 @@ def closest(triangles: Array, p: Array) -> Closest:
     """
     edges = triangles[:, _NEXT] - triangles
     offset = p[:, None] - triangles
-    along = np.clip(dot(offset, edges) / np.maximum(dot(edges, edges), TINY), 0.0, 1.0)
+    along = np.clip(dot(offset, edges) / np.maximum(dot(edges, edges), TINY_SQUARE), 0.0, 1.0)
     feet = triangles + along[..., None] * edges
     off = p[:, None] - feet
     squares = dot(off, off)
@@ -96,9 +96,9 @@ def _between(a: Array, b: Array, c: Array, d: Array) -> Array:
     uu, vv, uv = dot(u, u), dot(v, v), dot(u, v)
     uw, vw = dot(u, w), dot(v, w)
     spread = uu * vv - uv * uv
-    s = np.clip(np.where(spread > 0.0, (uv * vw - uw * vv) / np.maximum(spread, TINY), 0.0), 0.0, 1.0)
-    t = np.clip((uv * s + vw) / np.maximum(vv, TINY), 0.0, 1.0)
-    s = np.clip((uv * t - uw) / np.maximum(uu, TINY), 0.0, 1.0)
+    s = np.clip(np.where(spread > 0.0, (uv * vw - uw * vv) / np.maximum(spread, TINY_SQUARE), 0.0), 0.0, 1.0)
+    t = np.clip((uv * s + vw) / np.maximum(vv, TINY_SQUARE), 0.0, 1.0)
+    s = np.clip((uv * t - uw) / np.maximum(uu, TINY_SQUARE), 0.0, 1.0)
     gap = w + s[:, None] * u - t[:, None] * v
     return np.asarray(np.sqrt(dot(gap, gap)))
 

@@ -13,7 +13,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.ground import Ground, height_at
 from shotc.geom.surface.tree import in_plan
-from shotc.geom.surface.triangles import TINY
+from shotc.geom.surface.triangles import TINY_SQUARE
 
 
 def lowest_under(ground: Ground, rings: Sequence[Array]) -> Array:
@@ -45,7 +45,7 @@ def _least(triangles: Array, ring: Array) -> float:
     along, across = (b - a)[:, None, :2], (d - c)[None]
     apart = c[None] - a[:, None, :2]
     turn = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
-    turn = np.where(np.abs(turn) > TINY, turn, np.nan)  # parallel sides have their minimum at corners
+    turn = np.where(np.abs(turn) > TINY_SQUARE, turn, np.nan)  # parallel sides have their minimum at corners
     share = (apart[..., 0] * across[..., 1] - apart[..., 1] * across[..., 0]) / turn
     other = (apart[..., 0] * along[..., 1] - apart[..., 1] * along[..., 0]) / turn
     cross = (share >= 0.0) & (share <= 1.0) & (other >= 0.0) & (other <= 1.0)

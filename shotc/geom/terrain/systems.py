@@ -17,7 +17,7 @@ GEOGRAPHIC = frozenset({WGS84_EPSG, 4979})
 """EPSG codes of WGS84 latitudes and longitudes, without and with heights."""
 UTM_NORTH, UTM_SOUTH = 32600, 32700
 """EPSG codes minus the zone, 1 to 60."""
-_SCALE = 0.9996  # of the central meridian
+_MERIDIAN_RATIO = 0.9996  # of the central meridian
 _FALSE_EAST_M, _FALSE_NORTH_M = 500_000.0, 10_000_000.0  # metres; the second in the South
 _N = FLATTENING / (2.0 - FLATTENING)
 _E = float(np.sqrt(FLATTENING * (2.0 - FLATTENING)))
@@ -107,15 +107,15 @@ def utm_of_degrees(lat: Array, lon: Array, zone: int, north: bool) -> Both:
     eta = np.arcsinh(np.sin(away) / np.hypot(conformal, np.cos(away)))
     xi, eta = _bent(xi, eta, _ALPHA, 1.0)
     return (
-        _FALSE_EAST_M + _SCALE * _RADIUS * eta,
-        (0.0 if north else _FALSE_NORTH_M) + _SCALE * _RADIUS * xi,
+        _FALSE_EAST_M + _MERIDIAN_RATIO * _RADIUS * eta,
+        (0.0 if north else _FALSE_NORTH_M) + _MERIDIAN_RATIO * _RADIUS * xi,
     )
 
 
 def degrees_of_utm(x: Array, y: Array, zone: int, north: bool) -> Both:
     """Return latitudes and longitudes, degrees, of eastings and northings, metres, all of the same shape."""
-    xi = (y - (0.0 if north else _FALSE_NORTH_M)) / (_SCALE * _RADIUS)
-    eta = (x - _FALSE_EAST_M) / (_SCALE * _RADIUS)
+    xi = (y - (0.0 if north else _FALSE_NORTH_M)) / (_MERIDIAN_RATIO * _RADIUS)
+    eta = (x - _FALSE_EAST_M) / (_MERIDIAN_RATIO * _RADIUS)
     xi, eta = _bent(xi, eta, _BETA, -1.0)
     chi = np.arcsin(np.sin(xi) / np.cosh(eta))
     lat = chi + sum(c * np.sin(2 * j * chi) for j, c in enumerate(_DELTA, 1))

@@ -16,7 +16,7 @@ NEEDED = ("ncols", "nrows")
 CORNERS = (("xllcorner", "xllcenter"), ("yllcorner", "yllcenter"))
 STEPS = ("dx", "dy")
 NAMES = {*NEEDED, "cellsize", *STEPS, "nodata_value", *(name for both in CORNERS for name in both)}
-NO_HEIGHT = -9999.0  # default no-data value
+NO_HEIGHT_VALUE = -9999.0  # default no-data value
 LARGEST_CELL_DEG = 0.1
 """Largest cell in degrees, for coordinates that may be degrees; no grid has smaller cells in metres."""
 
@@ -56,7 +56,7 @@ def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFa
     heights = _heights(lines, header.lines, (steps.rows, steps.columns))
     if isinstance(heights, TerrainFault):
         return heights
-    heights[heights == header.values.get("nodata_value", NO_HEIGHT)] = np.nan
+    heights[heights == header.values.get("nodata_value", NO_HEIGHT_VALUE)] = np.nan
     x = np.asarray(_first(header.values, 0, steps.x) + steps.x * np.arange(steps.columns))
     y = np.asarray(_first(header.values, 1, steps.y) + steps.y * np.arange(steps.rows)[::-1])
     if system is None and steps.x < LARGEST_CELL_DEG and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:

@@ -15,7 +15,7 @@ Choice = Mapping[int, str]
 
 WORK_PER_METRE_S = 1e-3  # seconds of work per metre of distance
 EARLIER_COST = 1e-6  # preference of a drone over those written after it
-COST_SLACK = 1e-6
+SAME_TIME_S = 1e-6
 
 Row = tuple[dict[int, float], float]
 
@@ -70,7 +70,7 @@ def _can(task: ShotTask, drone: str) -> bool:
     if task.flown_by is not None:
         return task.flown_by == drone
     travel = task.travel_time(drone)
-    if task.start is not None and travel > task.start + COST_SLACK:
+    if task.start is not None and travel > task.start + SAME_TIME_S:
         return False
     return travel + task.duration + task.back(drone) <= task.drones[drone].endurance
 
@@ -98,5 +98,5 @@ def _clashes(
         assert first.start is not None
         assert second.start is not None
         for d in drones:
-            if first.start + first.duration + first.to(second, d) > second.start + COST_SLACK:
+            if first.start + first.duration + first.to(second, d) > second.start + SAME_TIME_S:
                 yield {column[k, d]: 1.0, column[m, d]: 1.0}, 1.0

@@ -13,7 +13,7 @@ from shotc.geom.bernstein import Piecewise, state_at
 from shotc.ir.drone import Drone
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.phases import UPRIGHT, Reference
-from shotc.ir.tolerances import AT_REST
+from shotc.ir.tolerances import REST_TOLERANCE
 from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.refine_path.form import SAME_PLACE_TOLERANCE, broken, changed_shot, jumps
 from shotc.planning.timing.timed_leg import leg_time
@@ -130,8 +130,8 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
             yield f"it {name} {distance:.3g} from where the guide does (m or rad)"
     motions = [np.array([state_at(curve, t)[1:] for t in (curve.start, curve.end)]) for curve in (was, now)]
     moving = float(np.abs(motions[1] - motions[0]).max())
-    if moving > AT_REST:
-        still = "at rest" if np.abs(motions[0]).max() <= AT_REST else "with the guide's motion"
+    if moving > REST_TOLERANCE:
+        still = "at rest" if np.abs(motions[0]).max() <= REST_TOLERANCE else "with the guide's motion"
         yield f"it does not begin and end {still}: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
 
 

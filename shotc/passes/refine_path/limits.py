@@ -31,7 +31,7 @@ from shotc.ir.path import (
     filmed,
 )
 from shotc.ir.phases import UPRIGHT
-from shotc.ir.tolerances import ON_PLACE
+from shotc.ir.tolerances import PLACE_TOLERANCE
 from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.solver_reports import place
 from shotc.planning.free_space import FreeSpace, breaches, shortfall
@@ -154,7 +154,7 @@ def _keyframes(path: PathIR) -> Iterator[RefinerFinding]:
             keyframe = placed.keyframes[mark.index]
             at = np.array(leg.pose) if isinstance(leg, HoldLeg) else leg.curve(mark.s)
             distance = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
-            if keyframe.placed and distance > ON_PLACE:
+            if keyframe.placed and distance > PLACE_TOLERANCE:
                 yield RefinerFinding(
                     "R007",
                     f"misses keyframe {mark.index + 1} of shot `{leg.shot}`",

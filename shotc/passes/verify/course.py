@@ -23,7 +23,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.preference import PICTURE_SHARE
-from shotc.ir.tolerances import BOW_SHARE, ON_PLACE, ON_TIME_S
+from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S, PLACE_TOLERANCE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, flown_shots, gap
 from shotc.passes.verify.explained import (
@@ -153,7 +153,7 @@ def _swing(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
-        near = SWING_SHARE * longest + UNREPORTED_M if drawn is None else drawn[i] + ON_PLACE
+        near = SWING_SHARE * longest + UNREPORTED_M if drawn is None else drawn[i] + PLACE_TOLERANCE
         most = near + sum(in_the_way(flight, _chords(at[i : i + 2])).values())
         worst = _off_chord(flight, times, ends, most)
         swings.append((worst.value / most, most, worst))

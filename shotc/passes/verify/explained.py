@@ -29,7 +29,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import mesh_owner
 from shotc.ir.path import Deviation
-from shotc.ir.preference import MOST_MOVED, PICTURE_SHARE, UNWATCHED
+from shotc.ir.preference import MOST_MOVED_SHARE, PICTURE_SHARE, UNWATCHED_M
 from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.target import Target
 from shotc.passes.verify.claims import JudgedFlight
@@ -81,7 +81,7 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
         return PICTURE_SHARE * distance
     if mission.rules.visibility == "off" or len(mission.drones) == 1:
         return 0.0
-    return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED) * distance
+    return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED_SHARE) * distance
 
 
 def for_its_limits(flight: JudgedFlight, course: ExpectedPlaces, smoothing: float) -> float:
@@ -106,7 +106,7 @@ def farthest(mission: MissionIR, names: Iterable[str], course: ExpectedPlaces) -
     """Return the largest distance of a course from the nearest of some targets, metres."""
     targets = [mission.target(name) for name in names]
     if not targets:
-        return UNWATCHED
+        return UNWATCHED_M
     distances = [np.linalg.norm(course.places - _centre(target, course.times), axis=1) for target in targets]
     return float(np.min(distances, axis=0).max())
 

@@ -19,7 +19,7 @@ from shotc.rounding import at_least
 
 BEYOND_M, BEYOND_RAD = 0.01, 1e-3  # by which a body is out of the frame beyond what is asked
 FARTHEST_M = 1000.0  # metres up to which another place is searched
-HALVINGS = 30  # bisection steps of that search
+PLACE_HALVINGS = 30  # bisection steps of that search
 OVER_PAD_M = 0.1  # metres off the vertical over its pad
 BEYOND_DEG = 0.5  # degrees that a camera is turned beyond the least angle
 
@@ -98,7 +98,7 @@ def _least_that(fits: Callable[[float], bool], most: float) -> float | None:
     low, high = 0.0, most
     if not fits(high):
         return None
-    for _ in range(HALVINGS):
+    for _ in range(PLACE_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if fits(middle) else (middle, high)
     return high

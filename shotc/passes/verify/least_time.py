@@ -21,7 +21,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.limits import Limits
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 
-NODES = 200
+ESTIMATE_STEPS = 200
 """Steps of the estimate, and a quarter of the samples from which they are chosen."""
 
 EASE_S = 0.2
@@ -33,7 +33,7 @@ POSITION_GROUPS = 2
 NO_WAY_S = 1e-7
 """Length of a way, in seconds at the rate limits, that counts as none."""
 
-TINY = 1e-12
+ROUNDING_TOLERANCE = 1e-12
 
 Select = Callable[[Array], Array]
 
@@ -79,11 +79,11 @@ def least_times(
     groups = _groups(drone, share, smoother)[: None if turns else POSITION_GROUPS]
     times = _even_times(curve, span, groups)
     at = curve(times)
-    steps = np.maximum(_steps(at, groups), TINY)
+    steps = np.maximum(_steps(at, groups), ROUNDING_TOLERANCE)
     if len(times) < 3 or steps.sum() < NO_WAY_S:
         return LeastTimes(np.array(span), np.zeros(2))
     speed = _speeds(at, steps, groups)
-    lasts = 2.0 * steps / np.maximum(speed[1:] + speed[:-1], TINY)
+    lasts = 2.0 * steps / np.maximum(speed[1:] + speed[:-1], ROUNDING_TOLERANCE)
     # From rest under constant jerk u grows as s^(2/3), so the time to s is 3 s / u.
     lasts[[0, -1]] *= 1.5
     return LeastTimes(times, np.concatenate([[0.0], np.cumsum(lasts)]))
@@ -113,7 +113,7 @@ def _always(rate: float) -> Select:
 
 def _over_ground(limits: Limits, steps: Array) -> Array:
     """Return the largest speeds over ground in the directions of steps, (M,), m/s, in the known wind."""
-    length = np.maximum(np.linalg.norm(steps[:, :2], axis=1), TINY)
+    length = np.maximum(np.linalg.norm(steps[:, :2], axis=1), ROUNDING_TOLERANCE)
     east, north = limits.wind
     along = (steps[:, 0] * east + steps[:, 1] * north) / length
     across = (steps[:, 0] * north - steps[:, 1] * east) / length
@@ -130,10 +130,10 @@ def _steps(at: Array, groups: tuple[_Group, ...]) -> Array:
 def _even_times(curve: Piecewise, span: tuple[float, float], groups: tuple[_Group, ...]) -> Array:
     """Return mission times at about even steps of the way, the ends among them."""
     inner = curve.breaks[(curve.breaks > span[0]) & (curve.breaks < span[1])]
-    dense = np.union1d(np.linspace(*span, 4 * NODES + 1), inner)
+    dense = np.union1d(np.linspace(*span, 4 * ESTIMATE_STEPS + 1), inner)
     way = np.concatenate([[0.0], np.cumsum(_steps(curve(dense), groups))])
-    moves = np.concatenate([[True], np.diff(way) > TINY * way[-1]])
-    times = np.interp(np.linspace(0.0, way[-1], NODES + 1), way[moves], dense[moves])
+    moves = np.concatenate([[True], np.diff(way) > ROUNDING_TOLERANCE * way[-1]])
+    times = np.interp(np.linspace(0.0, way[-1], ESTIMATE_STEPS + 1), way[moves], dense[moves])
     times[[0, -1]] = span
     return np.unique(times)
 
@@ -145,10 +145,12 @@ def _speeds(at: Array, steps: Array, groups: tuple[_Group, ...]) -> Array:
     moved = np.diff(at, axis=0)
     for group in groups:
         rate, most = group.select(moved) / steps[:, None], group.rates(moved)
-        size = np.maximum(np.linalg.norm(rate, axis=1), TINY)
+        size = np.maximum(np.linalg.norm(rate, axis=1), ROUNDING_TOLERANCE)
         bend = np.linalg.norm(np.diff(rate, axis=0), axis=1) / (0.5 * (steps[1:] + steps[:-1]))
         speed[1:], speed[:-1] = (np.minimum(part, most / size) for part in (speed[1:], speed[:-1]))
-        speed[1:-1] = np.minimum(speed[1:-1], np.sqrt(group.acceleration / np.maximum(bend, TINY)))
+        speed[1:-1] = np.minimum(
+            speed[1:-1], np.sqrt(group.acceleration / np.maximum(bend, ROUNDING_TOLERANCE))
+        )
         along, rush = np.minimum(along, group.acceleration / size), np.minimum(rush, group.jerk / size)
     rushes = np.minimum(np.append(rush, rush[-1]), np.append(rush[0], rush))
     speed = np.minimum(speed, np.cbrt(4.5 * rushes * np.minimum(way, way[-1] - way) ** 2))

@@ -47,10 +47,10 @@ DETOUR_RATIO, DETOUR_M, SIZES = 2.0, 100.0, 4.0
 MOST_TURN_RAD = 4.0 * pi
 """Largest turn of an axis that counts: at both ends of a way the body may turn round on the spot."""
 
-PLACES = 2000
+TRANSIT_SAMPLES = 2000
 """Samples of a transit, for the length of its way and for its turns."""
 
-STILL = 1e-9
+STILL_TOLERANCE = 1e-9
 """Change of any channel in a piece up to which the drone rests, metres or radians."""
 
 
@@ -98,7 +98,7 @@ def transfers(flight: JudgedFlight) -> tuple[Transfer, ...]:
 def _moves(curve: Piecewise, span: tuple[float, float]) -> Array:
     inner = curve.breaks[(curve.breaks > span[0]) & (curve.breaks < span[1])]
     breaks = np.concatenate([span[:1], inner, span[1:]])
-    still = np.ptp(restrict(curve, breaks).ctrl, axis=1).max(axis=1) <= STILL
+    still = np.ptp(restrict(curve, breaks).ctrl, axis=1).max(axis=1) <= STILL_TOLERANCE
     moves = [list(part) for rests, part in groupby(range(len(still)), lambda k: still[k]) if not rests]
     return np.array([(breaks[part[0]], breaks[part[-1] + 1]) for part in moves]).reshape(-1, 2)
 
@@ -201,7 +201,7 @@ def _on_transits(flight: JudgedFlight, between: Sequence[Transfer]) -> Iterator[
         ways = (least_times(curve, (a, b), flight.drone, 1.0, turns=False) for a, b in transfer.moves)
         least = sum(float(way.least[-1]) for way in ways)
         took = transfer.end - transfer.start - transfer.idle
-        poses = curve(np.linspace(transfer.start, transfer.end, PLACES))
+        poses = curve(np.linspace(transfer.start, transfer.end, TRANSIT_SAMPLES))
         lost.append((took - TRANSIT_RATIO * least - _turning(flight.drone, poses), transfer.start))
         at = poses[:, :3]
         way = float(np.linalg.norm(np.diff(at, axis=0), axis=1).sum())
@@ -236,7 +236,9 @@ def _turning(drone: Drone, at: Array) -> float:
         (at[:, CAM_PITCH], gimbal.rate, gimbal.acceleration),
     )
     turns = [(min(float(np.abs(np.diff(angle)).sum()), MOST_TURN_RAD), *most) for angle, *most in angles]
-    return sum(turn / rate + rate / acceleration for turn, rate, acceleration in turns if turn > STILL)
+    return sum(
+        turn / rate + rate / acceleration for turn, rate, acceleration in turns if turn > STILL_TOLERANCE
+    )
 
 
 def _sizes(mission: MissionIR) -> Iterator[float]:

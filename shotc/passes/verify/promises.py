@@ -26,7 +26,7 @@ FARTHEST_HALF_FRAMES = 3.0
 SMALLEST_SHARE = 0.01
 """Smallest share of frames or of an outline that can be promised; a smaller promise says nothing."""
 
-_DIGITS = 3
+_ERROR_DIGITS = 3
 _INSTEAD = {
     "V019": "film from farther away or through a wider lens where the target is cropped",
     "V020": "turn the camera less there",
@@ -117,8 +117,8 @@ def _kept_promise(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim,
         return f"visible: {enough(claim)}"
     if code == "V029":
         return _reveal(shot, certificate)
-    error = rounded_outward(claim.worst, upper=True, digits=_DIGITS)
-    return f"screen_error: {error:.{_DIGITS}g}" if error <= FARTHEST_HALF_FRAMES else ""
+    error = rounded_outward(claim.worst, upper=True, digits=_ERROR_DIGITS)
+    return f"screen_error: {error:.{_ERROR_DIGITS}g}" if error <= FARTHEST_HALF_FRAMES else ""
 
 
 def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
@@ -128,8 +128,12 @@ def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     broken = [c for c in certificate if c.shot == shot.id and not c.holds and _ENDS["V021"] in c.constraint]
     if not all(isfinite(c.worst) for c in broken):
         return ""
-    low = min([low, *(rounded_outward(c.worst, upper=False, digits=_DIGITS) for c in broken if not c.upper)])
-    high = max([high, *(rounded_outward(c.worst, upper=True, digits=_DIGITS) for c in broken if c.upper)])
+    low = min(
+        [low, *(rounded_outward(c.worst, upper=False, digits=_ERROR_DIGITS) for c in broken if not c.upper)]
+    )
+    high = max(
+        [high, *(rounded_outward(c.worst, upper=True, digits=_ERROR_DIGITS) for c in broken if c.upper)]
+    )
     return f"size: [{low:g}, {high:g}]" if high <= 1 else ""
 
 
@@ -139,9 +143,9 @@ def _reveal(shot: Shot, certificate: tuple[Claim, ...]) -> str:
     shares = []
     for promised, end in zip(shot.promise.reveal, (AT_FIRST, AT_LAST), strict=True):
         broken = [c for c in certificate if c.shot == shot.id and not c.holds and c.constraint.endswith(end)]
-        worst = [rounded_outward(c.worst, upper=c.upper, digits=_DIGITS) for c in broken]
+        worst = [rounded_outward(c.worst, upper=c.upper, digits=_ERROR_DIGITS) for c in broken]
         shares.append((max if broken[0].upper else min)(worst) if broken else promised)
     (first, last), (start, finish) = shot.promise.reveal, shares
     if (finish - start) * (last - first) <= 0:
         return ""
-    return f"reveal: {{from: {100 * start:.{_DIGITS}g} %, to: {100 * finish:.{_DIGITS}g} %}}"
+    return f"reveal: {{from: {100 * start:.{_ERROR_DIGITS}g} %, to: {100 * finish:.{_ERROR_DIGITS}g} %}}"

@@ -17,7 +17,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array, Piecewise, lift_off
 from shotc.ir.path import CHANNELS, Z
 from shotc.ir.phases import Phase
-from shotc.ir.tolerances import AT_REST
+from shotc.ir.tolerances import REST_TOLERANCE
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, JudgedFlight, Limit, WorstValue, claim
 
@@ -169,7 +169,7 @@ def shape(flight: JudgedFlight) -> Iterator[Claim]:
     yield claim(flight, home, WorstValue(float(off_home[k]), float(ends[k]), "exact"))
     still = np.max([np.abs(curve.derivative(n)(ends)).max(axis=1) for n in (1, 2)], axis=0)
     k = int(np.argmax(still))
-    rest = Limit("rate at start and end", AT_REST, "m/s", drone.path)
+    rest = Limit("rate at start and end", REST_TOLERANCE, "m/s", drone.path)
     yield claim(flight, rest, WorstValue(float(still[k]), float(ends[k]), "exact"))
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
     yield claim(flight, endurance, WorstValue(curve.end - lift_off(curve), curve.end, "exact"))

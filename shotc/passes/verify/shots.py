@@ -18,7 +18,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import ticks_inside
-from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
+from shotc.ir.tolerances import ON_TIME_S, PLACE_TOLERANCE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
 from shotc.passes.verify.explained import (
@@ -99,10 +99,10 @@ def _keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterat
         if rests or len(placed.keyframes) == 1:
             end = phase.end if len(placed.keyframes) == 1 or time is None else time + keyframe.hold
             name = f"drift at keyframe {index + 1}"
-            drift = Limit(name, ON_PLACE, "m", keyframe.path, shot=placed.shot.id)
+            drift = Limit(name, PLACE_TOLERANCE, "m", keyframe.path, shot=placed.shot.id)
             yield _still(flight, drift, (time, end), placed.shot, phase)
     for name, unit, limit, errors in (
-        ("distance from keyframes", "m", ON_PLACE, met),
+        ("distance from keyframes", "m", PLACE_TOLERANCE, met),
         ("delay of keyframes", "s", ON_TIME_S, late),
     ):
         if errors:
@@ -173,5 +173,5 @@ def _still(
     # A camera that follows a moving target turns while it rests.
     curve = flight.track.curve.channels(*range(Z + 1 if is_keyed(shot) else HFOV + 1))
     pose = curve(start)
-    drift = sup_convex(cut(curve, start, end), lambda c: norm(c - pose), gap(ON_PLACE))
+    drift = sup_convex(cut(curve, start, end), lambda c: norm(c - pose), gap(PLACE_TOLERANCE))
     return bounded(flight, limit, drift)

@@ -11,7 +11,7 @@ from shotc.ir.measures import OUT_OF_PICTURE, distinct_measures, measure
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
-from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictures
+from shotc.ir.preference import MOST_MOVED_SHARE, Price, given_up, prefers_free_pictures
 from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
@@ -78,7 +78,11 @@ def _price(price: Price) -> str:
     far = f"{at_least(price.moved)} m, {100 * price.share:.0f} % of its distance from what it films"
     if not price.suffices:
         return f"even a move by {far}, would not keep the drones' pictures free"
-    most = f"moves it by at most {100 * MOST_MOVED:g} %" if price.share > MOST_MOVED else "crops no subject"
+    most = (
+        f"moves it by at most {100 * MOST_MOVED_SHARE:g} %"
+        if price.share > MOST_MOVED_SHARE
+        else "crops no subject"
+    )
     return f"keeping the drones' pictures free would move it by {far}; a preference {most}"
 
 

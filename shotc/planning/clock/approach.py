@@ -35,7 +35,7 @@ from shotc.rounding import up
 
 LATE_S = 1e-6  # seconds
 AMPLE_RATIO = 1.5  # time that a transfer without a deadline may take, over its direct duration
-BISECTIONS = 5  # tries of an earlier start without a stop
+START_BISECTIONS = 5  # tries of an earlier start without a stop
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,7 +158,7 @@ class Approach:
 
         late : a start at which it is late
         """
-        for _ in range(BISECTIONS):
+        for _ in range(START_BISECTIONS):
             start = up(0.5 * (late + there.shot.leg.start))
             if start > there.shot.leg.start - CLOSE_S:
                 break

@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.solvers.spline_problem import Cones, Equalities
 
 NEARLY_SHARE = 0.999  # share of each limit that is used, as a margin for rounding
-ORDERS = 3  # of a state: value, rate, acceleration
+STATE_ORDERS = 3  # of a state: value, rate, acceleration
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +59,7 @@ def held_ends(breaks: Array, begin: Array | None = None, end: Array | None = Non
     begin, end : value, rate and acceleration there, shape (3, 3); None for rest at any value
     """
     piece, weight, value = [], [], []
-    for order in range(ORDERS):
+    for order in range(STATE_ORDERS):
         rows = control_rows(breaks, order)
         for at, state in ((0, begin), (-1, end)):
             if state is None and order == 0:
@@ -79,11 +79,15 @@ def with_ends(breaks: Array, coef: Array, begin: Array | None, end: Array | None
     """
     exact = coef.copy()
     if begin is not None:
-        rows = np.array([control_rows(breaks, order).weight[0, :ORDERS] for order in range(ORDERS)])
-        exact[:ORDERS] = np.linalg.solve(rows, begin)
+        rows = np.array(
+            [control_rows(breaks, order).weight[0, :STATE_ORDERS] for order in range(STATE_ORDERS)]
+        )
+        exact[:STATE_ORDERS] = np.linalg.solve(rows, begin)
     if end is not None:
-        rows = np.array([control_rows(breaks, order).weight[-1, -ORDERS:] for order in range(ORDERS)])
-        exact[-ORDERS:] = np.linalg.solve(rows, end)
+        rows = np.array(
+            [control_rows(breaks, order).weight[-1, -STATE_ORDERS:] for order in range(STATE_ORDERS)]
+        )
+        exact[-STATE_ORDERS:] = np.linalg.solve(rows, end)
     return exact
 
 

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.pieces import Mask
 from shotc.ir.bodies import centres, shapes
-from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.ir.preference import MOST_MOVED_SHARE, UNWATCHED_M
 from shotc.ir.target import Target
 from shotc.planning.clock.aims import CameraTask, aims_at
 
@@ -38,7 +38,7 @@ class Cost:
     @property
     def little(self) -> bool:
         """Whether the rule allows this price."""
-        return self.share <= MOST_MOVED and not self.crops
+        return self.share <= MOST_MOVED_SHARE and not self.crops
 
 
 def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
@@ -50,7 +50,7 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
     before, after = plain(times)[:, :3], freer(times)[:, :3]
     targets = [camera_task.mission.target(s.target) for s in camera_task.subjects]
     far = [np.linalg.norm(centres(target, times) - before, axis=1) for target in targets]
-    distance = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED)
+    distance = np.min(far, axis=0) if far else np.full(len(times), UNWATCHED_M)
     moved = np.linalg.norm(after - before, axis=1)
     share = moved / np.maximum(distance, STEP_S)
     k = int(share.argmax())

@@ -35,7 +35,7 @@ MOST_TRIES = 10
 LATE_TRIES = 4  # tries, after which a drone that falls further behind is given up
 CLOSE_S = 0.3  # seconds between a late start and one in time, at which the search ends
 SPARE_S = 0.1  # seconds by which a drone is early if the start is free
-STEEPEST_RATE = 0.95  # largest growth of the correction per second of delay
+STEEPEST_RATIO = 0.95  # largest growth of the correction per second of delay
 HORIZON_S = 300.0  # longest delay of a start, seconds
 FINE_S = 0.1  # seconds between the first candidates
 TRIES_PER_SCALE = 100  # candidates after which their spacing has doubled
@@ -262,7 +262,7 @@ def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, f
     """
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
-    start = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATE))
+    start = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATIO))
     return _soonest(about, off, span, 0.0) if start is None and len(off) < LATE_TRIES else start
 
 

@@ -24,7 +24,7 @@ from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.legs import BlockedWay, LegContext, drone_legs, end_of, turned_way
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import AngleFailure, PlannedShot
-from shotc.planning.path.with_camera import SAME_END, NoTransit, same, with_camera
+from shotc.planning.path.with_camera import SAME_END_TOLERANCE, NoTransit, same, with_camera
 from shotc.planning.timing.timed_leg import lateness, leg_time
 
 
@@ -143,4 +143,4 @@ def _led(mission: MissionIR, drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pos
 
 
 def _same(a: Pose, b: Pose) -> bool:
-    return bool(np.abs(np.array(a) - np.array(b)).max() < SAME_END)
+    return bool(np.abs(np.array(a) - np.array(b)).max() < SAME_END_TOLERANCE)

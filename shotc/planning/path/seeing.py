@@ -30,7 +30,7 @@ STEP_M = 1.0  # least metres of path between led places
 MOST_PLACES = 80  # most led places between two keyframes
 FINER_RATIO = 2  # factor of their number, for the comparison of curves
 ABOUT_M = 1.5  # metres by which a target is enlarged
-SMOOTHINGS = 6  # smoothing passes over the led places
+COURSE_SMOOTHINGS = 6  # smoothing passes over the led places
 CURVE_ROUNDS = 4  # rounds, each from the last curve
 MOST_SHARE = 1 / 3  # hidden share of a target above which a way is led
 LESS_SHARE = 0.9  # largest ratio of hidden times between a led curve and the plain one
@@ -192,7 +192,7 @@ def _larger(who: VisibleSubject) -> VisibleSubject:
 def _smooth(off: Array) -> Array:
     """Return smoothed offsets (N, 3); both ends stay."""
     off = off.copy()
-    for _ in range(SMOOTHINGS):
+    for _ in range(COURSE_SMOOTHINGS):
         off[1:-1] = 0.25 * off[:-2] + 0.5 * off[1:-1] + 0.25 * off[2:]
     return off
 

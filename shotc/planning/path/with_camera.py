@@ -16,7 +16,7 @@ from shotc.planning.path.filmed_ahead import Ahead, Faced, faced
 from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
 
-SAME_END = 1e-9  # metres or radians
+SAME_END_TOLERANCE = 1e-9  # metres or radians
 LENS_COLUMN = 5  # channel of the field of view in a refined camera
 
 
@@ -46,7 +46,7 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | No
     if isinstance(leg, HoldLeg):
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg: it stands still")
     old = leg.curve
-    if abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
+    if abs(camera.start - old.start) > SAME_END_TOLERANCE or abs(camera.end - old.end) > SAME_END_TOLERANCE:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
     lens = old.channels(HFOV)
     if camera.ctrl.shape[2] > LENS_COLUMN:
@@ -87,4 +87,4 @@ def _body(drone: Drone, leg: MovingLeg, camera: Piecewise, ends: Piecewise | Non
 
 def same(a: np.ndarray, b: np.ndarray) -> bool:
     """Return whether two poses are equal within rounding."""
-    return bool(np.abs(a - b).max() < SAME_END)
+    return bool(np.abs(a - b).max() < SAME_END_TOLERANCE)

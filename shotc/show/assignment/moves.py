@@ -21,7 +21,7 @@ from shotc.show.assignment.over import LiftedCandidate, MoveSurroundings, MoveTa
 from shotc.show.assignment.score import Motion, written
 from shotc.show.assignment.swell import Ends, Heights, lack_of, led
 from shotc.show.geom.arcs import FreeRegion, Gaps
-from shotc.show.geom.least_size import ROUNDING, LeastSize, least_size
+from shotc.show.geom.least_size import ROUNDING_TOLERANCE, LeastSize, least_size
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.goals.room import DisplaySurroundings, RoomLack, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
@@ -181,7 +181,7 @@ class Mover:
         apart, places = self.fleet.apart, [e * self._scale for e in ends]
         if apart.shape == "cylinder":
             size = least_size(*(p / (apart.across * (1.0 + MARGIN_SHARE)) for p in places))
-            return None if size.most <= 1.0 + MARGIN_SHARE + ROUNDING else size
+            return None if size.most <= 1.0 + MARGIN_SHARE + ROUNDING_TOLERANCE else size
         least = [nearest_pair(p) for p in places]
         if _gaps(least, apart.across).straight:
             return None

@@ -22,7 +22,7 @@ from shotc.show.assignment.swell import Ends, Heights, flown_of
 from shotc.show.goals.room import DisplaySurroundings, RoomLack
 from shotc.show.solvers.lifted_move import Course, Drive, LiftedMove, lifted, rising_paths
 
-ROUNDS = 6
+HEIGHT_TRIES = 6
 """Most heights that are tried, each higher by what the one before lacks."""
 LACK_RATIO, BEYOND_M = 1.1, 0.02
 """Rise for each metre of a missing clearance in the first round, and beyond it, metres."""
@@ -78,7 +78,7 @@ def over(ends: Ends, task: MoveTask, course: Course) -> LiftedCandidate | None:
     for every in (False, True):
         need = partial(_need, ends, course.pivot, task.sky.surroundings, every=every)
         paths, higher = rising_paths(ends, course, need), 0.0
-        for k in range(ROUNDS):
+        for k in range(HEIGHT_TRIES):
             shape = lifted(ends, course, [path.higher(higher) for path in paths], drive)
             if shape is None:
                 break

@@ -31,8 +31,8 @@ compensates.
 """
 WIDEST_RAD = pi / 4
 """Angle, above which control points are not pushed out further; no flown path has such steps."""
-ROUNDING = 1e-9
-SAMPLES = 24
+ROUNDING_TOLERANCE = 1e-9
+PIECE_SAMPLES = 24
 """Parts of a spline's piece, at whose ends it is sampled."""
 
 
@@ -70,7 +70,7 @@ class Gaps(NamedTuple):
     @property
     def straight(self) -> bool:
         """Return whether the straight path a + b = 1 keeps the separation."""
-        return 1.0 / self.before**2 + 1.0 / self.after**2 <= 1.0 + ROUNDING
+        return 1.0 / self.before**2 + 1.0 / self.after**2 <= 1.0 + ROUNDING_TOLERANCE
 
     def ways(self) -> Iterator[Array]:
         """Yield (a, b) along the shortest path alone, which has no corners, shape (STEPS + 1, 2)."""
@@ -102,7 +102,7 @@ class Gaps(NamedTuple):
         """Return the least size of (a d0, b d1) on splines with control points (..., K, 2), over the
         separation.
         """
-        a, b = sampled(ctrl * np.array(self), SAMPLES)
+        a, b = sampled(ctrl * np.array(self), PIECE_SAMPLES)
         return np.asarray(np.hypot(a, b).min(axis=(-2, -1)))
 
 

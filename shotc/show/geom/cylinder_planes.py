@@ -28,7 +28,7 @@ from shotc.geom.pieces import Mask
 
 Index = NDArray[np.intp]
 
-SMALL = 1e-12
+ROUNDING_TOLERANCE = 1e-12
 """Distance below which a direction is arbitrary."""
 REACH_RATIO = 1.5
 """Distance, in units of the separation, from which on a pair asks for nothing. A motion that is found without
@@ -36,7 +36,7 @@ such a pair is judged by it in the next round.
 """
 
 
-NEARLY_APART = 0.99
+NEARLY_APART_SHARE = 0.99
 """Distance, in units of the separation, above which a motion is nearly free. Two drones that lack a share of
 the separation in the middle between two times are kept apart by that share more at both times.
 """
@@ -78,7 +78,7 @@ def cylinder_planes(before: Array, after: Array, scalars: Array) -> CylinderPlan
         least = min(least, float(np.maximum(across, along).min(initial=REACH_RATIO)))
         flat = across[::2].min(axis=0) >= along[::2].min(axis=0)
         apart = np.where(flat, across[1], along[1])
-        share = np.where(apart > NEARLY_APART, np.minimum(apart, 1.0), 1.0)[:, None]
+        share = np.where(apart > NEARLY_APART_SHARE, np.minimum(apart, 1.0), 1.0)[:, None]
         for time in (middle - 1, middle + 1):
             normals = normals_of[time // 2]
             normals[0].append(share[flat] * gaps.of(flat).normals(scalars[time], slice(0, 2)))
@@ -138,7 +138,7 @@ class _Gaps(NamedTuple):
     def normals(self, row: Array, axes: slice) -> Array:
         """Return (n.r0, n.r1) for the direction n of each pair in some axes, shape (P, 2)."""
         n = _at(row, *self)[:, axes]
-        n = n / np.maximum(np.linalg.norm(n, axis=1), SMALL)[:, None]
+        n = n / np.maximum(np.linalg.norm(n, axis=1), ROUNDING_TOLERANCE)[:, None]
         return np.stack([np.einsum("pd,pd->p", n, r[:, axes]) for r in self], axis=1)
 
 

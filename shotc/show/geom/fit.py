@@ -19,7 +19,7 @@ ROGERS_SHARE = 0.7797
 """Largest share of a truncated Voronoi cell that its ball fills in space (Rogers 1958)."""
 TRUNCATED_RADII = sqrt(1.5)
 """Radius of truncation in that theorem, in radii of the ball."""
-ROUNDING = 1e-9
+ROUNDING_TOLERANCE = 1e-9
 GROWTH_STEP_SHARE = 0.01  # accuracy of the growth factor
 
 
@@ -81,8 +81,8 @@ def _on_surface(source: Sphere | Box | Torus, gap: float, stretch: float) -> flo
 
 def _on_sphere(gap: float) -> float:
     """Return the most points on a unit sphere ``gap`` apart: at most 2q / (q - 1) (Fejes Toth 1943)."""
-    if gap > sqrt(3.0) + ROUNDING:
-        return 2.0 if gap <= 2 + ROUNDING else 1.0
+    if gap > sqrt(3.0) + ROUNDING_TOLERANCE:
+        return 2.0 if gap <= 2 + ROUNDING_TOLERANCE else 1.0
     q = 6 / pi * asin(min(1.0, 1 / sqrt(4 - gap * gap)))
     return 2 * q / (q - 1)
 

@@ -37,25 +37,25 @@ from shotc.show.geom.arcs import evenly, sampled
 
 COARSE_INTERVALS, FINE_PARTS = 40, 16
 """Intervals of the direction, and parts of each in the fine search."""
-NEAREST_AXIS = 1e-5
+NEAREST_AXIS_RATIO = 1e-5
 """Least ratio of b to a, and of a to b, that is distinguished from the axes. Directions are spread by the
 logarithm of the ratio, because pairs far apart at one end need a size only in a narrow range of directions.
 """
-REACH = 2.0
+REACH_RATIO = 2.0
 """Distance, above which before and after a pair needs no size."""
 TOGETHER_PAIRS = 20_000
 ROUNDED_SHARES = (0.03, 0.06, 0.1, 0.15, 0.2)
 """Shares of the path over which its corners are rounded on either side. The fleet slows down less there,
 which may outweigh the longer path.
 """
-ROUNDS = 8
+SIZE_ROUNDS = 8
 """Most iterations in which a spline's control points are moved outwards."""
-SAMPLES = 16
-ROUNDING = 1e-9
+PIECE_SAMPLES = 16
+ROUNDING_TOLERANCE = 1e-9
 
 
 def _directions() -> Array:
-    ratio = np.geomspace(NEAREST_AXIS, 1.0 / NEAREST_AXIS, COARSE_INTERVALS * FINE_PARTS - 1)
+    ratio = np.geomspace(NEAREST_AXIS_RATIO, 1.0 / NEAREST_AXIS_RATIO, COARSE_INTERVALS * FINE_PARTS - 1)
     return np.concatenate([[0.0], ratio / (1.0 + ratio), [1.0]])
 
 
@@ -120,9 +120,9 @@ class LeastSize:
         """
         ctrl = ctrl.copy()
         pieces = ctrl.shape[-2] - 3
-        for _ in range(ROUNDS):
+        for _ in range(SIZE_ROUNDS):
             lacking = 1.0 / np.minimum(self._shares(ctrl), 1.0)
-            if lacking.max() <= 1.0 + ROUNDING:
+            if lacking.max() <= 1.0 + ROUNDING_TOLERANCE:
                 break
             # A control point is part of four pieces.
             wide = np.pad(lacking, [(0, 0)] * (lacking.ndim - 1) + [(3, 3)], constant_values=1.0)
@@ -136,7 +136,7 @@ class LeastSize:
 
     def _shares(self, ctrl: Array) -> Array:
         """Return the least ratio of each piece, shape (..., K - 3)."""
-        a, b = sampled(ctrl, SAMPLES)
+        a, b = sampled(ctrl, PIECE_SAMPLES)
         size = a + b
         return np.asarray((size / np.interp(b / size, DIRECTIONS, self._at)).min(axis=-1))
 
@@ -161,13 +161,15 @@ def least_size(before: Array, after: Array) -> LeastSize:
         asking = low[:, k] < min(high[k], 1.0)
         if asking.any():
             bound = _bounds(r0[asking], r1[asking], DIRECTIONS[first : last + 1]).min(axis=0)
-            most[first:last] = np.maximum(1.0 / np.maximum(bound, ROUNDING), 1.0)
+            most[first:last] = np.maximum(1.0 / np.maximum(bound, ROUNDING_TOLERANCE), 1.0)
     return LeastSize(most)
 
 
 def _pairs(before: Array, after: Array) -> tuple[Array, Array]:
     """Return r0 and r1 of the pairs that may need a size, shape (P, 3) each."""
-    near = [cKDTree(p).query_pairs(REACH, output_type="ndarray").astype(np.int64) for p in (before, after)]
+    near = [
+        cKDTree(p).query_pairs(REACH_RATIO, output_type="ndarray").astype(np.int64) for p in (before, after)
+    ]
     count = len(before)
     both = np.unique(np.concatenate([pairs @ [count, 1] for pairs in near]))
     i, j = both // count, both % count

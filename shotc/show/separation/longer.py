@@ -20,7 +20,7 @@ from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
 from shotc.rounding import up
-from shotc.show.separation.pushed import CONTROL_DECIMALS, ROUNDS, pushed
+from shotc.show.separation.pushed import CONTROL_DECIMALS, PUSH_ROUNDS, pushed
 from shotc.show.solvers.qcqp import DerivativeBounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
@@ -29,7 +29,7 @@ FACTORS = (1.5, 2.5, 4.0)
 MOST_HALVINGS = 4
 """Durations tried between one that is not enough and one that is."""
 
-MOST_ROUNDS = 3 * ROUNDS
+MOST_ROUNDS = 3 * PUSH_ROUNDS
 """Iterations of all tries together, the cost of three failures; a try with enough room needs few."""
 
 
@@ -116,6 +116,6 @@ class _Trial:
         coef = short(breaks, result.coef, bounds, CONTROL_DECIMALS)
         if keeps_separation(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
             return True
-        tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))
+        tried = pushed(breaks, coef, fleet, ctx.seed, min(PUSH_ROUNDS, self.left))
         self.left -= tried.rounds
         return tried.coef is not None

@@ -13,7 +13,7 @@ from shotc.ir.show import Fleet
 from shotc.show.solvers.pusher import Index, Push, Pusher
 from shotc.show.solvers.qcqp import INNER, DerivativeBounds, bounded
 
-ROUNDS = 25
+PUSH_ROUNDS = 25
 WEIGHT_RATIO = 1.8
 """Growth of the weight of the separation from iteration to iteration."""
 
@@ -51,7 +51,7 @@ class Pushed:
 
 
 def pushed(
-    breaks: Array, reference: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS, free: slice = INNER
+    breaks: Array, reference: Array, fleet: Fleet, seed: int, rounds: int = PUSH_ROUNDS, free: slice = INNER
 ) -> Pushed:
     """Push the drones of a stretch apart.
 

@@ -37,13 +37,13 @@ STEP_M = 1.0
 """Step on the longest path at which the required height is evaluated."""
 FEWEST_POINTS, MOST_POINTS = 33, 257
 """Least and largest number of points of a path at which it is evaluated."""
-STEPS = 600
+STORED_STEPS = 600
 """Points of a path at which its height is stored."""
 EXTENSION_SHARES = (0.0, 0.005, 0.01, 0.02)
 """Shares of the flown length by which the required height is extended on either side."""
 WIDTH_SHARES = (0.0, 0.02, 0.05, 0.1)
 """Shares of the path on either side over which its height is smoothed."""
-SAMPLES = 8
+PIECE_SAMPLES = 8
 """Points per piece at which the height is compared with the requirement."""
 LEAST_M = 1e-3
 """Required rises below this are ignored: positions at the least height may be there only up to rounding."""
@@ -149,9 +149,9 @@ class Course(NamedTuple):
 
 
 def sampled(ctrl: Array) -> Array:
-    """Return a spline at uniform points of every piece, shape (P * SAMPLES,); ctrl : shape (P + 3,)."""
+    """Return a spline at uniform points of every piece, shape (P * PIECE_SAMPLES,); ctrl : shape (P + 3,)."""
     windows = np.lib.stride_tricks.sliding_window_view(ctrl, 4)
-    return np.asarray((windows @ basis_at_starts(SAMPLES).T).ravel())
+    return np.asarray((windows @ basis_at_starts(PIECE_SAMPLES).T).ravel())
 
 
 def rising_paths(
@@ -248,27 +248,27 @@ def _fastest(busy: Drones, course: Course, path: RisingPath, line: Array, easing
 
 
 def _lines(far: float, rise: Rise) -> Iterator[Array]:
-    """Yield shares of the path and heights, at uniform steps of flown length, shape (STEPS + 1, 2).
+    """Yield shares of the path and heights, at uniform steps of flown length, shape (STORED_STEPS + 1, 2).
 
     The heights are concave, because going down and up again takes longer than staying up.
 
     far : the longest distance of a drone, m
     """
-    share = np.linspace(0.0, 1.0, 2 * STEPS + 1)
+    share = np.linspace(0.0, 1.0, 2 * STORED_STEPS + 1)
     need = rise.at(share)
     flown = far + 2.0 * float(need.max())
     for extension in EXTENSION_SHARES:
-        steps = round(extension * flown / far * 2 * STEPS)
+        steps = round(extension * flown / far * 2 * STORED_STEPS)
         yield from _smoothed(far, share, _concave(share, maximum_filter1d(need, 2 * steps + 1)))
 
 
 def _smoothed(far: float, share: Array, height: Array) -> Iterator[Array]:
     """Yield smoothings of heights at shares of the path, both (T,), as ``_lines`` does."""
     passed = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(share) * far, np.diff(height)))])
-    even = np.linspace(0.0, passed[-1], STEPS + 1)
+    even = np.linspace(0.0, passed[-1], STORED_STEPS + 1)
     line = [np.interp(even, passed, channel) for channel in (share, height)]
     for width in WIDTH_SHARES:
-        half = round(width * STEPS)
+        half = round(width * STORED_STEPS)
         kernel = np.ones(2 * half + 1) / (2 * half + 1)
         smooth = np.column_stack(
             [np.convolve(np.pad(c, half, mode="edge"), kernel, mode="valid") for c in line]

@@ -44,11 +44,11 @@ from shotc.show.solvers.arc_move import ArcMove, Drones
 from shotc.show.solvers.move import LEAST_PIECE_S, Ramps, profile
 from shotc.solvers.cone_rows import USABLE, ConeRows, Term, WarmStart
 
-PIECES = 36
-POINTS = PIECES + 3
-PARTS = 4
+MOVE_PIECES = 36
+POINTS = MOVE_PIECES + 3
+PIECE_PARTS = 4
 """Parts of a piece, at whose ends pairs are kept apart."""
-SCALARS = 4
+MOVE_SCALARS = 4
 FIXED_POINTS = 3
 MOST_SCALAR = 1.1
 """Largest control point of a scalar. Above 1 a scalar passes 1 before it slows down. Without a bound, one
@@ -65,7 +65,7 @@ LACK_SHARE = 2.5e-4
 """Share of the separation that drones may lack in the middle between two times: half of the margin with which
 moves are requested.
 """
-TOLERANCE = 1e-7
+SOLVER_TOLERANCE = 1e-7
 
 BEYOND_COST = 1.0
 """Seconds of a piece that a metre beyond the heights costs. The first directions may need more height than
@@ -73,7 +73,7 @@ later ones.
 """
 BEYOND_M = 5e-7
 """Rounding error of a height, m."""
-TOP = SCALARS * POINTS
+TOP = MOVE_SCALARS * POINTS
 """Column of the duration of a piece; the next one is of the height beyond the bounds, m."""
 
 Column = NDArray[np.intp]
@@ -135,10 +135,10 @@ def _first(drones: Drones) -> Array:
     time a and b', and a' and b, are such that one of both is 1. Rises and falls share the duration by the
     times that they would take with a moving start or end.
     """
-    fall, rise, fall_up, rise_up = (_time_alone(drones, k) for k in range(SCALARS))
+    fall, rise, fall_up, rise_up = (_time_alone(drones, k) for k in range(MOVE_SCALARS))
     whole = max(rise_up + fall, rise + fall_up)
     turns = [0.5 * (1.0 + (up - down) / whole) for up, down in ((rise_up, fall), (rise, fall_up))]
-    at = np.clip((np.arange(POINTS) - 2.0) / (PIECES - 2.0), 0.0, 1.0)
+    at = np.clip((np.arange(POINTS) - 2.0) / (MOVE_PIECES - 2.0), 0.0, 1.0)
     falls = [1.0 - profile(np.clip((at - turn) / (1.0 - turn), 0.0, 1.0), RAMPS) for turn in turns]
     rises = [profile(np.clip(at / turn, 0.0, 1.0), RAMPS) for turn in turns]
     return np.stack([falls[0], rises[1], falls[1], rises[0]], axis=1)
@@ -146,7 +146,7 @@ def _first(drones: Drones) -> Array:
 
 def _time_alone(drones: Drones, scalar: int) -> float:
     """Return about the time, s, in which one scalar may change by 1."""
-    change = np.zeros(SCALARS)
+    change = np.zeros(MOVE_SCALARS)
     change[scalar] = 2.0 * (scalar % 2) - 1.0
     speed, push = (float(drones.shares(change, order)) for order in (1, 2))
     return max(hypot(speed, sqrt(2.0 * push)), LEAST_PIECE_S)
@@ -154,7 +154,7 @@ def _time_alone(drones: Drones, scalar: int) -> float:
 
 def _at(ctrl: Array) -> Array:
     """Return the scalars at the ends and in the middle of all parts of pieces, shape (2 T + 1, 4)."""
-    pairs = [sampled(ctrl[:, k : k + 2], 2 * PARTS) for k in (0, 2)]
+    pairs = [sampled(ctrl[:, k : k + 2], 2 * PIECE_PARTS) for k in (0, 2)]
     return np.stack([np.append(s[:, :-1], s[-1, -1]) for pair in pairs for s in pair], axis=1)
 
 
@@ -177,7 +177,7 @@ class _Programme:
 
     def _bound_scalars(self) -> None:
         fixed = np.arange(FIXED_POINTS)
-        for scalar in range(SCALARS):
+        for scalar in range(MOVE_SCALARS):
             start = 1.0 - scalar % 2
             for points, value in ((fixed, start), (POINTS - 1 - fixed, 1.0 - start)):
                 cols = _columns(scalar, points)
@@ -208,13 +208,13 @@ class _Programme:
     def keep_apart(self, planes: CylinderPlanes) -> None:
         """Require all pairs to be apart in their directions."""
         # At both ends of a move the formations themselves are apart.
-        inner = (planes.at > 0) & (planes.at < PIECES * PARTS)
+        inner = (planes.at > 0) & (planes.at < MOVE_PIECES * PIECE_PARTS)
         time, upright, normals = planes.at[inner], planes.upright[inner], planes.normals[inner]
-        weights = basis_at_starts(PARTS)[time % PARTS]
+        weights = basis_at_starts(PIECE_PARTS)[time % PIECE_PARTS]
         terms = []
         for scalar in range(2):
             for point in range(4):
-                cols = _columns(2 * upright + scalar, time // PARTS + point)
+                cols = _columns(2 * upright + scalar, time // PIECE_PARTS + point)
                 terms.append((cols, normals[:, scalar] * weights[:, point]))
         if len(time):
             self._rows.positive(np.full(len(time), -1.0), terms)
@@ -232,10 +232,10 @@ class _Programme:
         cost = np.zeros(TOP + 2)
         cost[TOP:] = 1.0, BEYOND_COST
         near = WarmStart(np.concatenate([ctrl.T.ravel(), [self._piece, 0.0]]), NEAR_SHARE)
-        status, x = self._rows.solve(cost, TOLERANCE, near=near)
+        status, x = self._rows.solve(cost, SOLVER_TOLERANCE, near=near)
         if status not in USABLE:
             return None
-        moved = x[:TOP].reshape(SCALARS, POINTS).T.copy()
+        moved = x[:TOP].reshape(MOVE_SCALARS, POINTS).T.copy()
         moved[:FIXED_POINTS], moved[-FIXED_POINTS:] = ctrl[0], ctrl[-1]
         return moved
 

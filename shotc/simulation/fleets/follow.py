@@ -24,7 +24,7 @@ SPACING_S = 0.05
 """Seconds between samples of the path in the first search for the nearest point."""
 SLOW_M_S = 0.02
 """m/s, below which the tangent of a path is not used."""
-TINY = 1e-9
+STANDING_M_S = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ def preferred(reference: FleetReference, gains: Gains, now: float, position: Arr
     place, rate, bend = reference.each(_nearest(reference, gains, now, position))
     goal = reference.together(np.array([now + gains.ahead]))[:, 0] - position
     speed = _size(rate)
-    tangent = np.where(speed > SLOW_M_S, rate / np.maximum(speed, TINY), _unit(goal))
+    tangent = np.where(speed > SLOW_M_S, rate / np.maximum(speed, STANDING_M_S), _unit(goal))
     off = place - position
     normal = _unit(off - _dot(off, tangent) * tangent)
     along = gains.along[0] * _dot(goal, tangent) + gains.along[1] * (speed - _dot(velocity, tangent))
@@ -133,4 +133,4 @@ def _size(vectors: Array) -> Array:
 def _unit(vectors: Array) -> Array:
     """Return unit vectors (n, 3), zero for vectors without a direction."""
     size = _size(vectors)
-    return np.where(size > TINY, vectors / np.maximum(size, TINY), 0.0)
+    return np.where(size > STANDING_M_S, vectors / np.maximum(size, STANDING_M_S), 0.0)

@@ -27,7 +27,7 @@ from shotc.solvers.headings.energy import cubic, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
 
 NEAREST_RADIUS, FARTHEST_RADIUS = 0.5, 4.0  # radii of inner keyframes
-CLEAR_RADIUS = 0.3  # r_min of the half-planes
+CLEAR_RADII = 0.3  # r_min of the half-planes
 WIDE_LIMIT_RATIO = 8.0  # factor on the limits, for s' and s''
 SAMPLES_PER_PIECE = 4  # samples of a piece
 FINER_PIECES = 4  # quintic pieces for each cubic piece
@@ -93,7 +93,7 @@ def _programme(task: HeadingTask, angles: Array, grid: _KnotGrid) -> _Solved:
     _keyframes(problem, task, angles, (knots, radii))
     _bends(problem, grid, bends)
     value, rate, acceleration = (_samples(grid, order) for order in range(3))
-    every = np.full(len(grid.at), CLEAR_RADIUS)
+    every = np.full(len(grid.at), CLEAR_RADII)
     problem.positive(-every, _dot(value, grid.along, knots))
     if np.isfinite(task.rate):
         limit = _dot(value, task.rate * grid.along, knots)

@@ -228,7 +228,7 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/show/solvers/own_heights.py",
-        "TOLERANCE = 1e-7",
+        "SOLVER_TOLERANCE = 1e-7",
         "1e-7  ->  9.999999999999999e-05",
         "a round begins from what the one before gave, however rough; what is taken is looked at, and proved by callers",
     ),
@@ -321,7 +321,7 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/show/solvers/own_heights.py",
-        "PIECES = 36",
+        "MOVE_PIECES = 36",
         "36  ->  37",
         "a spline of one piece more flies the same move; no number of pieces is promised",
     ),

@@ -128,7 +128,7 @@ OF_GEOMETRY: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/geom/surface/near.py",
-        "ROUNDING = 1e-9",
+        "ROUNDING_TOLERANCE = 1e-9",
         "1e-9  ->  1.0000000000000002e-06",
         "a wider tolerance leaves more boxes to look at; the distances of their triangles decide",
     ),

@@ -25,8 +25,8 @@ WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "pictur
 UNFILMED_WEIGHT = 1e3
 # Half-width of the box about the given states of both ends, SI. ``curve_of`` removes the deviation; a wider
 # box takes clearances at the ends that then have to be proved in another round.
-END_HALF_WIDTH = 1e-5
-HELD_HALF_WIDTH = 2e-4  # half-width of the box about a keyframe's place, and about rest there, SI
+END_TOLERANCE = 1e-5
+HELD_TOLERANCE = 2e-4  # half-width of the box about a keyframe's place, and about rest there, SI
 SAME_S = 1e-9  # seconds
 
 
@@ -38,7 +38,7 @@ class Use(NamedTuple):
     """
 
     share: float
-    ends: float = END_HALF_WIDTH
+    ends: float = END_TOLERANCE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -198,11 +198,11 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     for bound in subject.bound:
         at = (breaks >= bound.start - SAME_S) & (breaks <= bound.end + SAME_S)
         low[at, :3], high[at, :3] = (
-            np.array(bound.place) - HELD_HALF_WIDTH,
-            np.array(bound.place) + HELD_HALF_WIDTH,
+            np.array(bound.place) - HELD_TOLERANCE,
+            np.array(bound.place) + HELD_TOLERANCE,
         )
         if bound.still:
-            low[at, 3:9], high[at, 3:9] = -HELD_HALF_WIDTH, HELD_HALF_WIDTH
+            low[at, 3:9], high[at, 3:9] = -HELD_TOLERANCE, HELD_TOLERANCE
     return low, high
 
 

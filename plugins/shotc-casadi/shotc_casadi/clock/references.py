@@ -10,8 +10,8 @@ import numpy as np
 
 from shotc.plugin_api import MissionIR, PathIR, Piecewise
 from shotc.plugin_api.refiner import (
-    MOST_MOVED,
-    UNWATCHED,
+    MOST_MOVED_SHARE,
+    UNWATCHED_M,
     Array,
     Bound,
     CameraTask,
@@ -39,7 +39,7 @@ KEPT_SHARE = 0.05  # of the usual distance: a guide farther from a framing's pla
 STEEP_SHARE = 0.15  # horizontal share of a line of sight below which it counts as vertical
 NEAREST_M = 1.0  # least distance that counts as usual, metres
 NO_SUBJECT_M = 100.0  # the target of a shot without a subject is this far east of the camera, metres
-PREFERRED_SHARE = 0.98 * MOST_MOVED  # less than MOST_MOVED, because of the motion between nodes
+PREFERRED_SHARE = 0.98 * MOST_MOVED_SHARE  # less than MOST_MOVED_SHARE, because of the motion between nodes
 LOOKS_PER_STAGE = 8  # samples of an ideal, a stage
 INNER_M = 0.005  # metres beyond the guide's distance that are allowed: a constraint needs an interior
 AT_END_S = 1e-6  # seconds by which a node at an end of the film may be rounded
@@ -204,7 +204,7 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     between = _ideal_at(subject, times)
     straight = (ideal[:-1] + share[:, :, None] * np.diff(ideal, axis=0)).reshape(-1, 3)
     distances = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
-    far = distances.min(axis=1) if subject.framed else UNWATCHED
+    far = distances.min(axis=1) if subject.framed else UNWATCHED_M
     free = PREFERRED_SHARE * far - np.linalg.norm(between - straight, axis=1)
     stages = (
         np.where((times >= leg.start) & (times < leg.end), free, np.inf)

@@ -21,7 +21,7 @@ REACH_M = 1.0
 LEAST_CONSTRAINTS = 3
 """Up to this number of solids, none is left out, so that no new programme is built in flight."""
 LIMIT_ROWS = 10
-WALL = 4
+WALL_PARAMETERS = 4
 """Parameters of a half-space: its normal, and its offset with the margin."""
 
 
@@ -46,12 +46,12 @@ class RowCounts(NamedTuple):
     @property
     def common(self) -> int:
         """Number of parameters that all stages share."""
-        return LIMIT_ROWS + sum(map(count, self.shapes)) + WALL * self.walls + self.cones
+        return LIMIT_ROWS + sum(map(count, self.shapes)) + WALL_PARAMETERS * self.walls + self.cones
 
     @property
     def each(self) -> int:
         """Number of parameters of one stage."""
-        return 6 * (self.others + self.cones) + WALL * self.walls
+        return 6 * (self.others + self.cones) + WALL_PARAMETERS * self.walls
 
 
 class StaticObstacles:
@@ -199,8 +199,8 @@ def _rooms(of: RowCounts, g: Any) -> Iterator[tuple[int, Any]]:
 def _walls(of: RowCounts, numbers: Any, end: int) -> Iterator[Any]:
     """Yield the parameters of half-spaces, the last of which ends at an index."""
     for i in range(of.walls):
-        at = end - WALL * (of.walls - i)
-        yield numbers[at : at + WALL]
+        at = end - WALL_PARAMETERS * (of.walls - i)
+        yield numbers[at : at + WALL_PARAMETERS]
 
 
 def pitched(of: RowCounts, q: Any, g: Any) -> Any:

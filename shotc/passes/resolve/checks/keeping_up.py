@@ -23,7 +23,7 @@ from shotc.ir.framed import course_of
 from shotc.ir.ideal import CATCH_UP_RATIO, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import MissionIR, Shot
-from shotc.ir.preference import MOST_MOVED
+from shotc.ir.preference import MOST_MOVED_SHARE
 from shotc.rounding import at_most, down, up
 
 WINDOW_S = 2.0  # seconds over which the mean speed is measured
@@ -185,7 +185,7 @@ def _follows(mission: MissionIR, shot: Shot, start: float, limit: float) -> bool
     for flown in _through_air(places, wind, step):
         lost = max(0.0, lost + flown - limit * step)
         most = max(most, lost)
-    return most / 2 <= MOST_MOVED * min(dist(p, c) for p, c in zip(places, centres, strict=True))
+    return most / 2 <= MOST_MOVED_SHARE * min(dist(p, c) for p, c in zip(places, centres, strict=True))
 
 
 def _through_air(course: list[Vec3], wind: Vec2, step: float) -> list[float]:

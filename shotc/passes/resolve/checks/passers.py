@@ -23,7 +23,7 @@ from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
 
-ROUNDING = 1e-6  # metres or seconds
+ROUNDING_TOLERANCE = 1e-6  # metres or seconds
 TRACK_HALVINGS = 40  # bisection steps for the first and last contact
 TAKEOFF_SAMPLES = 50  # samples of a take-off
 FAR_M = 1e3  # metres beyond a pad
@@ -62,7 +62,7 @@ def _diagnostics(
     filmed = [end for name, end in ends if name in (drone.name, AUTO)]
     if not filmed:
         last = max((end for _, end in ends), default=0.0)
-        parked = [t for t in touches if t.first < last - ROUNDING]
+        parked = [t for t in touches if t.first < last - ROUNDING_TOLERANCE]
         if parked:
             yield _fault(
                 mission, drone, target, parked[0].first, f"`{drone.name}` films nothing and stands there"
@@ -72,7 +72,7 @@ def _diagnostics(
     if caught is not None:
         risen = f"by then the drone can be {at_least(_risen(drone, caught))} m above its pad at most"
         yield _fault(mission, drone, target, caught, risen)
-    elif touches and touches[-1].last == inf and touches[-1].first < max(filmed) - ROUNDING:
+    elif touches and touches[-1].last == inf and touches[-1].first < max(filmed) - ROUNDING_TOLERANCE:
         first = f"it stays there, and the drone films until {max(filmed):.1f} s at least"
         yield _fault(mission, drone, target, touches[-1].first, first)
 
@@ -121,7 +121,7 @@ def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
     for i in range(TAKEOFF_SAMPLES + 1):
         t = touch.first + (last - touch.first) * i / TAKEOFF_SAMPLES
         x, y, z = drone.home
-        if _gap(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
+        if _gap(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING_TOLERANCE:
             return t
     return None
 
@@ -146,7 +146,7 @@ def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:
         touch = _touch(drone, target, stretch)
         if touch is None:
             continue
-        if open_ is not None and touch.first <= open_.last + ROUNDING:
+        if open_ is not None and touch.first <= open_.last + ROUNDING_TOLERANCE:
             open_ = Touch(open_.first, touch.last)
             continue
         if open_ is not None:
@@ -165,7 +165,7 @@ def _stretches(drone: Drone, track: Track) -> Iterator[UniformMotion]:
             yield UniformMotion(max(a, 0.0), b)
     begin = max(0.0, track.times[-1])
     speed = hypot(*track.after)
-    if speed < ROUNDING:
+    if speed < ROUNDING_TOLERANCE:
         yield UniformMotion(begin, inf)
         return
     yield UniformMotion(begin, begin + (dist(track.at(begin), drone.home) + FAR_M) / speed)
@@ -175,27 +175,27 @@ def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None
     """Return when a target touches a drone on its pad in one part; once, as the distance is convex."""
     begin, end = stretch
     if end == inf:
-        return Touch(begin, inf) if _gap(drone, target, drone.home, begin) < -ROUNDING else None
+        return Touch(begin, inf) if _gap(drone, target, drone.home, begin) < -ROUNDING_TOLERANCE else None
     (ax, ay, _), (bx, by, _) = target.at(begin), target.at(end)
     x, y, _ = drone.home
     near = closest_on_segment((ax, ay), (bx, by), (x, y))
     if hypot(near[0] - x, near[1] - y) >= target.radius + drone.radius:
         return None
     length = hypot(bx - ax, by - ay)
-    share = hypot(near[0] - ax, near[1] - ay) / length if length > ROUNDING else 0.0
+    share = hypot(near[0] - ax, near[1] - ay) / length if length > ROUNDING_TOLERANCE else 0.0
     nearest = begin + share * (end - begin)
-    if _gap(drone, target, drone.home, nearest) >= -ROUNDING:
+    if _gap(drone, target, drone.home, nearest) >= -ROUNDING_TOLERANCE:
         return None
     return Touch(_edge(drone, target, nearest, begin), _edge(drone, target, nearest, end))
 
 
 def _edge(drone: Drone, target: Target, inside: float, outside: float) -> float:
     """Return the end, towards ``outside``, of the time in which a target touches a drone on its pad."""
-    if _gap(drone, target, drone.home, outside) < -ROUNDING:
+    if _gap(drone, target, drone.home, outside) < -ROUNDING_TOLERANCE:
         return outside
     for _ in range(TRACK_HALVINGS):
         middle = 0.5 * (inside + outside)
-        if _gap(drone, target, drone.home, middle) < -ROUNDING:
+        if _gap(drone, target, drone.home, middle) < -ROUNDING_TOLERANCE:
             inside = middle
         else:
             outside = middle

@@ -17,7 +17,7 @@ from shotc.ir.fleet import FrameTimes
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display
-from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
+from shotc.ir.tolerances import ON_TIME_S, PLACE_TOLERANCE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
@@ -187,8 +187,8 @@ def _holds(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) 
         np.concatenate([p.high for p in parts]),
         np.concatenate([p.ctrl - p.ctrl[:, :1, :1] for p in parts], axis=1),
     )
-    drift = sup_convex(from_place.bag(), norm, gap(ON_PLACE))
+    drift = sup_convex(from_place.bag(), norm, gap(PLACE_TOLERANCE))
     begin = max((s.start for s in frames if s.start <= drift.at), default=0.0)
     place = flight.at(begin)
-    limit = Limit("drift at rest", ON_PLACE, "m", (*display.path, "frames"), shot=display.id)
+    limit = Limit("drift at rest", PLACE_TOLERANCE, "m", (*display.path, "frames"), shot=display.id)
     yield bounded(flight, limit, drift, lambda p: norm(p - place))

@@ -17,7 +17,7 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.effects.stays import SAME_S, Stay, dark_from, dark_until
 from shotc.passes.verify.fleets.flight import FleetFlight
-from shotc.passes.verify.fleets.lights import LEVELS
+from shotc.passes.verify.fleets.lights import COLOR_LEVELS
 
 
 class _Knots(NamedTuple):
@@ -43,7 +43,7 @@ def fades(flight: FleetFlight, stays: Sequence[Stay]) -> Iterator[Claim]:
     drone, k = (int(i) for i in np.unravel_index(int(off.argmax()), off.shape))
     time = float(times[k])
     stay = next((stay for stay in stays if stay.start >= time), stays[-1])
-    limit = Limit("light between pictures", LEVELS, "", stay.display.path, shot=stay.display.id)
+    limit = Limit("light between pictures", COLOR_LEVELS, "", stay.display.path, shot=stay.display.id)
     x, y, z = (float(c) for c in flight.at(time)[drone])
     worst = WorstValue(float(off[drone, k]), time, "exact", (x, y, z))
     yield held(flight.fleet.name, limit, worst, (flight.names[drone],))

@@ -27,7 +27,7 @@ WHITE: Color = (255, 255, 255)
 
 BLACK: Color = (0, 0, 0)
 
-LEVELS = 1.0
+COLOR_LEVELS = 1.0
 """Tolerance of each part of a colour, in levels of 255: rounding."""
 
 DARK_SHARE = 0.95
@@ -70,7 +70,7 @@ def lights(flight: FleetFlight, display: Display, frames: Sequence[FrameTimes]) 
     if errors:
         off, at = max(errors, key=lambda entry: float(entry[0].max()))
         path = (*display.pictures[at.picture].path, "color")
-        limit = Limit("light off its colour", LEVELS, "", path, shot=display.id)
+        limit = Limit("light off its colour", COLOR_LEVELS, "", path, shot=display.id)
         drone = int(off.argmax())
         x, y, z = (float(c) for c in flight.at(at.start)[drone])
         worst = WorstValue(float(off[drone]), at.start, "exact", (x, y, z))

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.proof import norm
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
-from shotc.ir.tolerances import AT_REST
+from shotc.ir.tolerances import REST_TOLERANCE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
 from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit
@@ -79,7 +79,7 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
     home = Limit("distance from home", AT_HOME_M, "m", flight.key("layout"))
     yield _farthest(flight, home, off_home, ends)
     still = np.stack([np.abs(flight.at(float(t), n)).max(axis=1) for n in (1, 2) for t in ends], axis=1)
-    rest = Limit("rate at start and end", AT_REST, "m/s", flight.fleet.path)
+    rest = Limit("rate at start and end", REST_TOLERANCE, "m/s", flight.fleet.path)
     yield _farthest(flight, rest, still, np.tile(ends, 2))
     airborne = _airborne(breaks, coef)
     longest = int(np.argmax(airborne))

@@ -18,7 +18,7 @@ from shotc.passes.verify.claims import JudgedFlight, Limit
 from shotc.passes.verify.course import SWING_SHARE, UNREPORTED_M, _along, _is_free, _swing
 from shotc.passes.verify.explained import NEAR_M
 from shotc.passes.verify.looking import BESIDE_S, _off_course
-from shotc.passes.verify.shots import ON_PLACE, _still
+from shotc.passes.verify.shots import PLACE_TOLERANCE, _still
 from tests.support.mesh_spaces import made_of
 from tests.support.records import replace
 from tests.support.scenes import house
@@ -155,7 +155,7 @@ def test_a_camera_that_rests_at_a_keyframe_neither_moves_nor_turns_nor_zooms(
     curve = quintic_hermite(np.array([30.0, 32.0]), value, np.zeros((2, 7)), np.zeros((2, 7)))
     flight = JudgedFlight(MISSION, MISSION.drones[0], replace(PLAN.drones[0], curve=curve))
     phase = Phase("shot", PLAN.keyframes.shots[0].shot.id, 20.0, 40.0)
-    limit = Limit("drift at keyframe 1", ON_PLACE, "m", KEYFRAME.path)
+    limit = Limit("drift at keyframe 1", PLACE_TOLERANCE, "m", KEYFRAME.path)
     found = _still(flight, limit, (30.0, 32.0), PLAN.keyframes.shots[0].shot, phase)
     assert found.holds is not drifts
     assert found.worst == pytest.approx(0.1 if drifts else 0.0, abs=1e-6)

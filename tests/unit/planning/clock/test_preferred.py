@@ -9,7 +9,7 @@ import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.ir.path import ClockDeviation
-from shotc.ir.preference import MOST_MOVED, Price, given_up, noted
+from shotc.ir.preference import MOST_MOVED_SHARE, Price, given_up, noted
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
 from shotc.planning.clock import position
 from shotc.planning.clock.preferred import Cost
@@ -96,7 +96,7 @@ def test_an_orbit_that_cannot_keep_out_of_a_picture_stays_what_it_is() -> None:
 
 def test_what_costs_no_more_than_the_rule_is_kept() -> None:
     kept = orbit(way=ASIDE)
-    assert 0.5 < apart(kept, orbit("off", way=ASIDE), "two", (20.0, 40.0)) <= MOST_MOVED * 16.0
+    assert 0.5 < apart(kept, orbit("off", way=ASIDE), "two", (20.0, 40.0)) <= MOST_MOVED_SHARE * 16.0
     assert told(kept, "V033") == []
     assert len(told(kept, "M008")) == 1
 
@@ -126,7 +126,7 @@ def test_what_is_given_up_is_told_once_a_shot_with_its_price_and_the_switch() ->
 def test_a_requirement_pays_whatever_it_takes() -> None:
     chase = orbit("require", 3)
     assert chase.plan is not None
-    assert apart(chase, orbit("off", 3), "one", (20.0, 40.0)) > MOST_MOVED * 8.5
+    assert apart(chase, orbit("off", 3), "one", (20.0, 40.0)) > MOST_MOVED_SHARE * 8.5
     (said,) = told(chase, "M008")
     assert "rules: {mutual_visibility: {strength: off}}" in said
 

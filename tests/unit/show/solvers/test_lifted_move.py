@@ -10,7 +10,7 @@ from shotc.show.geom.arcs import Gaps
 from shotc.show.solvers.lifted_move import (
     BEYOND_M,
     EXTENSION_SHARES,
-    STEPS,
+    STORED_STEPS,
     WIDTH_SHARES,
     Course,
     Drive,
@@ -54,17 +54,17 @@ def test_heights_rise_to_a_wall_a_share_of_the_flown_length_before_it_and_fall_a
 def test_lines_begin_and_end_on_the_path_and_have_steps_of_one_flown_length() -> None:
     lines = list(_lines(FAR_M, WALL))
     for k, line in enumerate(lines):
-        assert line.shape == (STEPS + 1, 2)
+        assert line.shape == (STORED_STEPS + 1, 2)
         assert (line[0].tolist(), line[-1].tolist()) == ([0.0, 0.0], [1.0, 0.0])
         if k % len(WIDTH_SHARES) == 0:
             flown = np.hypot(np.diff(line[:, 0]) * FAR_M, np.diff(line[:, 1]))
             assert np.median(flown) == pytest.approx(flown.mean(), rel=0.01)
             assert flown.max() <= np.median(flown) * (1.0 + 1e-9)
         else:
-            half = round(WIDTH_SHARES[k % len(WIDTH_SHARES)] * STEPS)
+            half = round(WIDTH_SHARES[k % len(WIDTH_SHARES)] * STORED_STEPS)
             sharp = lines[k - k % len(WIDTH_SHARES)]
-            mean = sharp[STEPS // 2 - half : STEPS // 2 + half + 1].mean(axis=0)
-            assert line[STEPS // 2] == pytest.approx(mean)
+            mean = sharp[STORED_STEPS // 2 - half : STORED_STEPS // 2 + half + 1].mean(axis=0)
+            assert line[STORED_STEPS // 2] == pytest.approx(mean)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -24,9 +24,9 @@ from shotc.passes.verify.fleets.effects.asked import Asked, asked_effects
 from shotc.passes.verify.fleets.effects.paints import PaintError, paint_error
 from shotc.passes.verify.fleets.effects.stays import SAME_S, Stay
 from shotc.passes.verify.fleets.flight import FleetFlight
-from shotc.passes.verify.fleets.lights import LEVELS
+from shotc.passes.verify.fleets.lights import COLOR_LEVELS
 
-OFF_PLACE = 1e-3
+OFF_PLACE_SHARE = 1e-3
 """Largest error of the place of an effect, as a share of its picture: rounding."""
 
 
@@ -129,9 +129,9 @@ def _count(flight: FleetFlight, display: Display, lacking: Sequence[Asked], extr
 
 
 _MEASURES = (
-    _Measure("effect off its colours", "", LEVELS, lambda error: error.levels),
+    _Measure("effect off its colours", "", COLOR_LEVELS, lambda error: error.levels),
     _Measure("effect off its times", "s", ON_TIME_S, lambda error: error.seconds),
-    _Measure("effect off its place", "", OFF_PLACE, lambda error: error.share),
+    _Measure("effect off its place", "", OFF_PLACE_SHARE, lambda error: error.share),
 )
 
 

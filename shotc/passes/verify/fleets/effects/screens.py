@@ -13,7 +13,7 @@ from shotc.ir.light_layers import Footage
 from shotc.ir.limits import Vec3
 from shotc.passes.verify.fleets.effects.views import View, seen_from, tangents
 
-LEAST = 1e-6
+LEAST_SLOPE = 1e-6
 """Least size of what an audience sees, as a tangent."""
 
 
@@ -22,7 +22,7 @@ def screen_error(fit: Fit, places: Array, viewpoint: Vec3 | None, image: Footage
     view, screen = seen_from(viewpoint, places), image.screen
     seen = tangents(view, places)
     low, high = seen.min(axis=0), seen.max(axis=0)
-    size = np.maximum(high - low, LEAST)
+    size = np.maximum(high - low, LEAST_SLOPE)
     drawn = np.array([screen.width, screen.height])
     middle = np.array([screen.left, screen.bottom]) + drawn / 2.0
     aside = float(np.abs((middle - (low + high) / 2.0) / drawn).max())

@@ -40,13 +40,13 @@ from shotc.passes.verify.fleets.pictures.texts import text_figure
 OFF_ROOM, OFF_PART, OFF_HEIGHT = 0.3, 0.5, 0.02
 """Shares of the room, of a part, and (of texts) of the height of letters in the distance from the shape."""
 
-BARE = 1.5
+BARE_RATIO = 1.5
 """Largest distance of the shape from a light, over the larger of a part and the room."""
 
-WIDER_STROKES = 0.3
+WIDER_STROKES_SHARE = 0.3
 """The share of size of a text: each of its outlines has a whole number of lights, so parts are uneven."""
 
-PUSHED = 0.8
+PUSHED_RATIO = 0.8
 """Room over the length of a part, above which lights may be pushed apart."""
 
 ASIDE_PART, WIDER_PART, WITHIN = 0.5, 0.2, 2.0 / 12.0
@@ -68,7 +68,7 @@ class _Lit:
     @property
     def pushed(self) -> float:
         """By how much lights may have been pushed out of the middle of their parts, metres."""
-        return max(self.room - PUSHED * self.part, 0.0)
+        return max(self.room - PUSHED_RATIO * self.part, 0.0)
 
     @property
     def deep(self) -> float:
@@ -172,7 +172,7 @@ def _in_front(lit: _Lit, source: Lettering) -> Array:
 def _bare(lit: _Lit) -> _Measured:
     """Measure how far a point of the shape is from a light."""
     far = cKDTree(lit.lights).query(lit.figure.points)[0]
-    return _Measured(float(far.max()), BARE * max(lit.part, lit.room) + lit.deep, lit)
+    return _Measured(float(far.max()), BARE_RATIO * max(lit.part, lit.room) + lit.deep, lit)
 
 
 def _aside(lit: _Lit) -> _Measured:
@@ -189,5 +189,5 @@ def _resized(lit: _Lit) -> _Measured:
     narrow = np.sqrt(np.maximum(variance - WITHIN * lit.part**2, 0.0))
     found = ((lights - lights.mean(axis=0)) @ axes).std(axis=0)
     excess = float(np.maximum(found - wide, narrow - found).max())
-    wider = WIDER_STROKES if isinstance(lit.picture.source, Lettering) else WIDER_PART
+    wider = WIDER_STROKES_SHARE if isinstance(lit.picture.source, Lettering) else WIDER_PART
     return _Measured(max(excess, 0.0), wider * lit.part + lit.pushed + lit.deep, lit)

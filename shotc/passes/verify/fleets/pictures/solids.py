@@ -14,7 +14,7 @@ from shotc.passes.verify.fleets.pictures.figure import Figure, evenly, turned
 
 Fill = Literal["volume", "surface", "outline"]
 
-ACROSS = 24
+POINTS_ACROSS = 24
 """Points across a shape."""
 
 
@@ -32,7 +32,7 @@ def _ball(ball: Sphere, fill: Fill) -> Figure:
         return np.asarray(np.linalg.norm(places - centre, axis=1) - radius)
 
     if fill == "volume":
-        points = _cells((2 * radius, 2 * radius, 2 * radius), ACROSS)
+        points = _cells((2 * radius, 2 * radius, 2 * radius), POINTS_ACROSS)
         points = points[np.linalg.norm(points, axis=1) <= radius]
         volume = 4.0 / 3.0 * pi * radius**3
         return Figure(
@@ -42,7 +42,7 @@ def _ball(ball: Sphere, fill: Fill) -> Figure:
             lambda n: (volume / n) ** (1 / 3),
         )
     # A spiral of equal steps in height has equal areas between its turns (Archimedes).
-    number = 4 * ACROSS * ACROSS
+    number = 4 * POINTS_ACROSS * POINTS_ACROSS
     height = 1.0 - (2.0 * np.arange(number) + 1.0) / number
     around = pi * (1.0 + sqrt(5.0)) * np.arange(number)
     level = np.sqrt(1.0 - height**2)
@@ -64,12 +64,12 @@ def _box(box: Box, fill: Fill) -> Figure:
         return np.asarray(np.linalg.norm(held, axis=1))
 
     if fill == "volume":
-        local = _cells(box.size, ACROSS)
+        local = _cells(box.size, POINTS_ACROSS)
         measure, power = float(np.prod(box.size)), 1 / 3
     else:
         fixed = 1 if fill == "surface" else 2
         sides = [s for s in product((-1.0, 1.0, 0.0), repeat=3) if sum(map(abs, s)) == fixed]
-        step = max(box.size) / ACROSS
+        step = max(box.size) / POINTS_ACROSS
         local = np.concatenate([_side(half, np.array(side), step) for side in sides])
         measure = sum(float(np.prod(np.where(np.array(s) == 0.0, box.size, 1.0))) for s in sides)
         power = 1.0 / (3 - fixed)
@@ -95,7 +95,7 @@ def _ring(ring: Torus, fill: Fill) -> Figure:
         return np.asarray(np.maximum(deep, 0.0) if fill == "volume" else np.abs(deep))
 
     across = _disc(tube) if fill == "volume" else _circle(tube, 16)
-    around = 2.0 * pi * (np.arange(4 * ACROSS) + 0.5) / (4 * ACROSS)
+    around = 2.0 * pi * (np.arange(4 * POINTS_ACROSS) + 0.5) / (4 * POINTS_ACROSS)
     out = radius + across[:, 0]
     high = np.tile(across[:, 1], (len(around), 1))
     local = np.stack([np.outer(np.cos(around), out), np.outer(np.sin(around), out), high], axis=-1)

@@ -13,10 +13,10 @@ from shotc.passes.verify.fleets.pictures.figure import Figure, evenly, turned
 FONT = "DejaVu Sans"
 """The font of a text without one; it comes with matplotlib."""
 
-STEPS = 60
+CAPITAL_POINTS = 60
 """Points in the height of a capital."""
 
-BLOCK = 2_000_000
+BLOCK_PAIRS = 2_000_000
 """Most pairs of places and edges at once."""
 
 
@@ -30,7 +30,7 @@ def text_figure(source: Lettering, *, outline: bool) -> Figure | None:
     rings = _rings(source)
     edges = np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
     axes, centre = turned(source.heading), np.array(source.centre)
-    step = source.height / STEPS
+    step = source.height / CAPITAL_POINTS
     lengths = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)
     area = abs(sum(_area(ring) for ring in rings))
     flat = _along(edges, lengths, step) if outline else _inside(edges, step)
@@ -116,4 +116,4 @@ def _from_edges(places: Array, edges: Array) -> Array:
 
 
 def _blocks(places: Array, edges: int) -> list[Array]:
-    return np.array_split(places, max(1, len(places) * edges // BLOCK))
+    return np.array_split(places, max(1, len(places) * edges // BLOCK_PAIRS))
