@@ -16,7 +16,7 @@ from shotc.ir.show import Apart, Fleet, kept_from_cameras, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.fleets.near import Across, ClosestPair
-from shotc.simulation.fleets.rehearse import PERIOD_S, FleetRehearsal, Watch, moments
+from shotc.simulation.fleets.rehearse import PERIOD_S, FleetRecord, FleetRehearsal, moments
 from shotc.simulation.fleets.vehicle import Gusts
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import at_times
@@ -115,7 +115,7 @@ def _flown(
         return FleetRun((), ())
     fleets = [ir.keyframes.mission.fleet(track.fleet) for track in ir.fleets]
     gusts = Gusts(conditions.wind.gusts)
-    watches = [Watch(fleet, track) for fleet, track in zip(fleets, ir.fleets, strict=True)]
+    watches = [FleetRecord(fleet, track) for fleet, track in zip(fleets, ir.fleets, strict=True)]
     flights = [
         moments(fleet, track, gusts, conditions.seed_of(run, f"gusts {track.fleet}"))
         for fleet, track in zip(fleets, ir.fleets, strict=True)

@@ -39,7 +39,7 @@ INTEGERS = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
 """MAV_PARAM_TYPE of integers, and the ``struct`` format of their bytes in the float of PARAM_VALUE."""
 
 
-class Link:
+class VehicleLink:
     """One UDP socket to one vehicle."""
 
     def __init__(self, endpoint: Endpoint, *, bytewise: bool = False) -> None:

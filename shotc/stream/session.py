@@ -32,7 +32,7 @@ from shotc.stream.setpoints import SetpointSeries, course_of
 from shotc.stream.vehicle import VehicleStatus
 
 if TYPE_CHECKING:  # the sockets are passed in, and MAVLink with them
-    from shotc.stream.link import Link
+    from shotc.stream.link import VehicleLink
 
 CUT_TICKS = RATE_HZ // 10
 """Ticks between the end of one recording and the start of the next."""
@@ -49,7 +49,7 @@ class Doors:
     Both raise OSError if that fails.
     """
 
-    link: Callable[[Endpoint, Autopilot], Link]
+    link: Callable[[Endpoint, Autopilot], VehicleLink]
     feed: Callable[[str, Endpoint, GeoOrigin], Feed]
 
 

@@ -8,12 +8,12 @@ from shotc.ir.mission import GeoOrigin
 from shotc.stream.autopilots import Autopilot
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import Feed
-from shotc.stream.link import Link, decoded, decoder, understood
+from shotc.stream.link import VehicleLink, decoded, decoder, understood
 from shotc.stream.session import Doors
 
 
-def _link(endpoint: Endpoint, autopilot: Autopilot) -> Link:
-    return Link(endpoint, bytewise=autopilot.bytewise)
+def _link(endpoint: Endpoint, autopilot: Autopilot) -> VehicleLink:
+    return VehicleLink(endpoint, bytewise=autopilot.bytewise)
 
 
 def _feed(target: str, endpoint: Endpoint, origin: GeoOrigin) -> Feed:

@@ -22,7 +22,7 @@ from shotc.stream.messages import (
 )
 
 if TYPE_CHECKING:  # MAVLink is an extra, and the checks work without it
-    from shotc.stream.link import Link
+    from shotc.stream.link import VehicleLink
 
 AUTOPILOT_COMPONENT = 1
 CAMERA_MAV_TYPE = 30
@@ -45,7 +45,7 @@ class VehicleStatus:
 
     drone: str
     autopilot: Autopilot
-    link: Link
+    link: VehicleLink
     heartbeat: Heartbeat | None = None
     seen: float = 0.0
     camera: int = AUTOPILOT_COMPONENT

@@ -14,7 +14,7 @@ from shotc.ir.mission import GeoOrigin
 from shotc.stream.autopilots import PX4
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import FARTHEST_M, Feed
-from shotc.stream.link import Link
+from shotc.stream.link import VehicleLink
 from shotc.stream.sockets import DOORS
 from shotc.stream.vehicle import VehicleStatus
 from tests.support.stream.worlds import free_port
@@ -37,7 +37,7 @@ MESSAGES = st.sampled_from(sorted(mavlink.mavlink_map))
 @pytest.fixture(scope="module")
 def opened():
     endpoint = Endpoint("127.0.0.1", free_port(), False)
-    link = Link(endpoint, bytewise=True)
+    link = VehicleLink(endpoint, bytewise=True)
     feed = DOORS.feed("tower", Endpoint("127.0.0.1", free_port(), False), ORIGIN)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         yield link, feed, sender

@@ -33,19 +33,19 @@ class JudgedFlight:
     others: tuple[DroneTrajectory, ...] = ()
 
 
-class FlownShot(NamedTuple):
+class JudgedShot(NamedTuple):
     """A shot of the mission, and the phase in which it is flown."""
 
     placed: PlacedShot
     phase: Phase
 
 
-def flown_shots(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[FlownShot]:
+def flown_shots(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[JudgedShot]:
     """Yield the shots of one drone that are flown once; ``shots`` refuses the others."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         if placed.shot.drone == flight.drone.name and len(flown) == 1:
-            yield FlownShot(placed, flown[0])
+            yield JudgedShot(placed, flown[0])
 
 
 @dataclass(frozen=True, slots=True)

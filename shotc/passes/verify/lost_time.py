@@ -54,7 +54,7 @@ STILL_TOLERANCE = 1e-9
 """Change of any channel in a piece up to which the drone rests, metres or radians."""
 
 
-class Transfer(NamedTuple):
+class UnfilmedFlight(NamedTuple):
     """What a drone flies between two shots, or from and to its pad.
 
     start, end : mission times, seconds; shot : the next one, None on the way home
@@ -72,7 +72,7 @@ class Transfer(NamedTuple):
         return _idle((self.start, self.end), self.moves)
 
 
-def lost_time(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -> Iterator[Claim]:
+def lost_time(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[UnfilmedFlight]) -> Iterator[Claim]:
     """Yield claims on the time that this drone loses in its shots on paths, and between its shots.
 
     between : what it flies between its shots
@@ -83,15 +83,15 @@ def lost_time(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer
     yield from _on_transits(flight, between)
 
 
-def transfers(flight: JudgedFlight) -> tuple[Transfer, ...]:
+def transfers(flight: JudgedFlight) -> tuple[UnfilmedFlight, ...]:
     """Return what a drone flies between its shots, in order."""
-    found: list[Transfer] = []
+    found: list[UnfilmedFlight] = []
     runs = [(shot, list(run)) for shot, run in groupby(flight.track.phases, lambda p: p.shot)]
     for i, (shot, run) in enumerate(runs):
         if shot is None:
             then = runs[i + 1][0] if i + 1 < len(runs) else None
             span = run[0].start, run[-1].end
-            found.append(Transfer(*span, then, _moves(flight.track.curve, span)))
+            found.append(UnfilmedFlight(*span, then, _moves(flight.track.curve, span)))
     return tuple(found)
 
 
@@ -192,7 +192,7 @@ def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretc
     return legs
 
 
-def _on_transits(flight: JudgedFlight, between: Sequence[Transfer]) -> Iterator[Claim]:
+def _on_transits(flight: JudgedFlight, between: Sequence[UnfilmedFlight]) -> Iterator[Claim]:
     """Yield the claims on the time that a drone loses on its transits, and on how long these are."""
     curve, path = flight.track.curve, flight.drone.path
     stands = DETOUR_M + SIZES * sum(_sizes(flight.mission))

@@ -29,7 +29,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.sampling import cameras, phase_index
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
-from shotc.passes.verify.lost_time import SLOWER_RATIO, Transfer
+from shotc.passes.verify.lost_time import SLOWER_RATIO, UnfilmedFlight
 
 WAITED, LATE, UNJUDGED = "wait without a reason", "delay of the start", "waits that are not judged"
 
@@ -65,7 +65,7 @@ class _Wait(NamedTuple):
     start: float
 
 
-def waits(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -> Iterator[Claim]:
+def waits(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[UnfilmedFlight]) -> Iterator[Claim]:
     """Yield claims on the waits of one drone before its shots, and on its way home.
 
     between : what it flies between its shots
@@ -93,7 +93,7 @@ def waits(flight: JudgedFlight, ir: TrajectoryIR, between: Sequence[Transfer]) -
         yield claim(flight, Limit(UNJUDGED, unjudged, "", path), WorstValue(unjudged, None, "exact"))
 
 
-def _without_reason(flight: JudgedFlight, transfer: Transfer, waited: float) -> float:
+def _without_reason(flight: JudgedFlight, transfer: UnfilmedFlight, waited: float) -> float:
     """Return by how many seconds a wait is longer than ``WAIT_RATIO`` times the needed one."""
     if waited <= WAIT_S:
         return waited
@@ -114,7 +114,7 @@ class _Flown(NamedTuple):
     at: Array
 
 
-def _flown_at(flight: JudgedFlight, transfer: Transfer, waited: float) -> _Flown:
+def _flown_at(flight: JudgedFlight, transfer: UnfilmedFlight, waited: float) -> _Flown:
     """Return the samples of a transfer and of its shot, or of the time on the pad that waiting has taken."""
     curve = flight.track.curve
     phase = next((p for p in flight.track.phases if p.shot == transfer.shot and transfer.shot), None)
@@ -167,7 +167,7 @@ def _in_picture(flight: JudgedFlight, camera: DroneTrajectory, times: Array, pla
     return np.asarray(films & (angle < corner + NEAR_RAD))
 
 
-def _begun(flight: JudgedFlight, shot: Shot, transfer: Transfer, ready: float) -> Claim:
+def _begun(flight: JudgedFlight, shot: Shot, transfer: UnfilmedFlight, ready: float) -> Claim:
     """Return the claim that a shot of what moves begins when its drone can be there."""
     mission, here = flight.mission, flight.track.curve(transfer.start)[:3]
     tracks = (mission.target(name).track for name in carriers(shot))

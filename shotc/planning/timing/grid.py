@@ -24,7 +24,7 @@ OVER_LENGTH_SHARE, OVER_CHANGE_SHARE = 0.15, 0.25
 # Largest jump of the third derivative over its maximum, for a break that counts as smooth.
 KINK_SHARE = 1e-2
 # Smoothing rounds of a rough profile: with them it loses a third against the best, without 70 %.
-EVENING_ROUNDS = 8
+PEAK_ROUNDS = 8
 # sdot^2 where nothing else binds: paths are parametrised in metres, and nothing flies at 1000 m/s.
 FASTEST_M2_S2 = 1e6
 
@@ -133,9 +133,9 @@ def rough_profile(
     return s, b
 
 
-def evened(b: Array) -> Array:
+def without_peaks(b: Array) -> Array:
     """Return the guess (N + 1,) without sharp maxima, where the acceleration jumps; nowhere higher."""
-    for _ in range(EVENING_ROUNDS):
+    for _ in range(PEAK_ROUNDS):
         b = np.concatenate([b[:1], np.minimum(b[1:-1], (b[:-2] + 2 * b[1:-1] + b[2:]) / 4), b[-1:]])
     return b
 

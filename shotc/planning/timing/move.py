@@ -13,12 +13,12 @@ from shotc.ir.path import HFOV
 from shotc.planning.timing.flown import needed_scale, on_path, usages
 from shotc.planning.timing.grid import (
     Samples,
-    evened,
     lay_grid,
     rate_cap,
     rough_profile,
     sample,
     split_cells,
+    without_peaks,
 )
 from shotc.planning.timing.limits import Ceiling, LimitedNorm, axes
 from shotc.planning.timing.profile import Profile, profile_of
@@ -132,7 +132,7 @@ def time_move(
     held = None
     if best is None:
         samples, start = first
-        calm = start_from(samples.widths, evened(start.b))
+        calm = start_from(samples.widths, without_peaks(start.b))
         best = _FlownProfile(path, samples.grid, calm, limits, ceiling)
         held = best.held
     cells = len(best.flown.ctrl)

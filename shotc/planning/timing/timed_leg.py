@@ -14,7 +14,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
 from shotc.planning.timing.deadlines import LegDeadlines, TooFast, has_times
-from shotc.planning.timing.grid import evened, rough_profile
+from shotc.planning.timing.grid import rough_profile, without_peaks
 from shotc.planning.timing.leg import LegMotion, StopPlan, assemble, fastest_moves, plan_of
 from shotc.planning.timing.limits import Ceiling, ceiling_of
 from shotc.planning.timing.move import TimedMove, axes_of
@@ -113,7 +113,7 @@ def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array
     places, times = [np.array([leg.curve.start])], [np.zeros(1)]
     for start, end in plan_of(leg).spans:
         s, b = rough_profile(leg.curve, start, end, axes_of(leg.curve, (start, end), ceiling))
-        speed = np.sqrt(evened(b))
+        speed = np.sqrt(without_peaks(b))
         steps = 2 * np.diff(s) / np.maximum(speed[1:] + speed[:-1], LEAST_SPEED_M_S)
         places.append(s[1:])
         times.append(times[-1][-1] + np.cumsum(steps))

@@ -47,14 +47,14 @@ class Need(NamedTuple):
     factor: float
 
 
-class FlightClock(NamedTuple):
+class RecordedClock(NamedTuple):
     """The breaks of the flight, s, and what needed more time than the file has, or None."""
 
     breaks: Array
     need: Need | None
 
 
-def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> FlightClock:
+def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> RecordedClock:
     """Return the clock of a flight.
 
     coef : control points, shape (n, K, 3)
@@ -66,11 +66,11 @@ def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> Flight
     widths = np.full(count, step)
     need = worst(widths, coef, granted)
     if need.factor <= 1.0 + SLACK_SHARE:
-        return FlightClock(_breaks(widths), None)
+        return RecordedClock(_breaks(widths), None)
     alike = widths * need.factor * (1.0 + OVER_SHARE)
     stretched = _stretched(widths, coef, granted)
     best = alike if stretched is None or stretched.sum() >= alike.sum() else stretched
-    return FlightClock(_breaks(best), need)
+    return RecordedClock(_breaks(best), need)
 
 
 def _breaks(widths: Array) -> Array:

@@ -104,7 +104,7 @@ class FleetRehearsal:
     beside: ClosestPair | None = None
 
 
-class Watch:
+class FleetRecord:
     """Accumulates the results of a fleet while it flies."""
 
     def __init__(self, fleet: Fleet, flight: FleetTrajectory) -> None:

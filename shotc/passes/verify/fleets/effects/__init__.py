@@ -20,7 +20,7 @@ from shotc.ir.show import Display
 from shotc.ir.tolerances import ON_TIME_S
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, WorstValue, held
-from shotc.passes.verify.fleets.effects.asked import Asked, asked_effects
+from shotc.passes.verify.fleets.effects.asked import AskedEffect, asked_effects
 from shotc.passes.verify.fleets.effects.paints import PaintError, paint_error
 from shotc.passes.verify.fleets.effects.stays import SAME_S, Stay
 from shotc.passes.verify.fleets.flight import FleetFlight
@@ -33,7 +33,7 @@ OFF_PLACE_SHARE = 1e-3
 class _Compared(NamedTuple):
     """An effect of the mission, and how far its layer is from it; None if the plan has no such layer."""
 
-    asked: Asked
+    asked: AskedEffect
     error: PaintError | None
 
 
@@ -110,7 +110,7 @@ def _throughout(lights: Lights, span: tuple[float, float]) -> set[int]:
     return _inside(lights, span) | (set() if ends else {-1})
 
 
-def _error(asked: Asked, layer: Layer, drones: int) -> PaintError | None:
+def _error(asked: AskedEffect, layer: Layer, drones: int) -> PaintError | None:
     """Return how far a layer is from an effect, its paint and its times; None if it is another one."""
     error = paint_error(asked, layer.paint, drones) if layer.blend == asked.effect.blend else None
     if error is None or inf in error:
@@ -120,7 +120,7 @@ def _error(asked: Asked, layer: Layer, drones: int) -> PaintError | None:
     return PaintError(max(error.levels, opacity), max(error.seconds, late), error.share)
 
 
-def _count(flight: FleetFlight, display: Display, lacking: Sequence[Asked], extra: int) -> Claim:
+def _count(flight: FleetFlight, display: Display, lacking: Sequence[AskedEffect], extra: int) -> Claim:
     """Return the claim that every effect is there, and no other."""
     path = lacking[0].effect.path if lacking else display.path
     limit = Limit("effects not as asked", 0.0, "", path, shot=display.id)

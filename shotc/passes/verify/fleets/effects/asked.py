@@ -20,7 +20,7 @@ from shotc.passes.verify.fleets.effects.stays import Stay
 from shotc.passes.verify.fleets.flight import FleetFlight
 
 
-class Window(NamedTuple):
+class EffectTimes(NamedTuple):
     """The times of what an effect belongs to, s: from when it comes, stands, goes, and until it is gone."""
 
     comes: float
@@ -29,7 +29,7 @@ class Window(NamedTuple):
     gone: float
 
 
-class Asked(NamedTuple):
+class AskedEffect(NamedTuple):
     """One effect of the mission.
 
     span : how it comes and goes; begins, ends : its own time, from which its motion counts, s
@@ -47,14 +47,14 @@ class Asked(NamedTuple):
 class AskedEffects(NamedTuple):
     """The effects of a fleet: those with the colours of each picture, and those on top of all."""
 
-    within: tuple[tuple[Asked, ...], ...]
-    over: tuple[Asked, ...]
+    within: tuple[tuple[AskedEffect, ...], ...]
+    over: tuple[AskedEffect, ...]
 
 
 def asked_effects(flight: FleetFlight, stays: Sequence[Stay]) -> AskedEffects:
     """Return the effects of a fleet; ``within`` has one stack for each of its pictures."""
-    within: list[tuple[Asked, ...]] = []
-    over: list[Asked] = []
+    within: list[tuple[AskedEffect, ...]] = []
+    over: list[AskedEffect] = []
     for stay in stays:
         stack = [(e, _of_picture(flight, stay, e)) for e in stay.display.pictures[stay.number].effects]
         within.append(tuple(asked for e, asked in stack if asked is not None and e.over == "both"))
@@ -65,23 +65,23 @@ def asked_effects(flight: FleetFlight, stays: Sequence[Stay]) -> AskedEffects:
     return AskedEffects(tuple(within), tuple(over))
 
 
-def _of_picture(flight: FleetFlight, stay: Stay, effect: Effect) -> Asked | None:
-    window = Window(stay.comes, stay.start, stay.end, stay.goes)
+def _of_picture(flight: FleetFlight, stay: Stay, effect: Effect) -> AskedEffect | None:
+    window = EffectTimes(stay.comes, stay.start, stay.end, stay.goes)
     if effect.over == "transition":
-        window = Window(stay.comes, stay.comes, stay.start, stay.start)
+        window = EffectTimes(stay.comes, stay.comes, stay.start, stay.start)
     elif effect.over == "hold":
-        window = Window(stay.start, stay.start, stay.end, stay.end)
+        window = EffectTimes(stay.start, stay.start, stay.end, stay.end)
     return _asked(flight, effect, window, [stay])
 
 
-def _of_display(flight: FleetFlight, display: Display, stays: Sequence[Stay]) -> Iterator[Asked]:
+def _of_display(flight: FleetFlight, display: Display, stays: Sequence[Stay]) -> Iterator[AskedEffect]:
     for effect in display.effects:
         gone = stays[-1].goes
         begins = stays[0].comes if effect.since is None else _moment(effect.since, stays, last=False)
         ends = gone if effect.until is None else min(_moment(effect.until, stays, last=True), gone)
         under = [stay for stay in stays if stay.start < ends and stay.end > begins] or stays
         # A colour to which the lights have faded stays for as long as the display does.
-        window = Window(begins, begins, ends, ends if effect.until is None else gone)
+        window = EffectTimes(begins, begins, ends, ends if effect.until is None else gone)
         asked = _asked(flight, effect, window, under)
         if asked is not None:
             yield asked
@@ -97,7 +97,9 @@ def _moment(mark: DisplayTime, stays: Sequence[Stay], *, last: bool) -> float:
     return stay.end if last else stay.start
 
 
-def _asked(flight: FleetFlight, effect: Effect, window: Window, under: Sequence[Stay]) -> Asked | None:
+def _asked(
+    flight: FleetFlight, effect: Effect, window: EffectTimes, under: Sequence[Stay]
+) -> AskedEffect | None:
     """Return an effect over the lights of pictures; None if it has no time."""
     with_colors = effect.over == "both"
     first, last = (window.comes, window.gone) if with_colors else (window.stands, window.goes)
@@ -106,10 +108,10 @@ def _asked(flight: FleetFlight, effect: Effect, window: Window, under: Sequence[
     frames = [frame for stay in under for frame in stay.frames]
     places = np.concatenate([_lit_places(flight, frame) for frame in frames])
     span = _span(effect, window)
-    return Asked(effect, under[0].display, span, window.stands, window.goes, places)
+    return AskedEffect(effect, under[0].display, span, window.stands, window.goes, places)
 
 
-def _span(effect: Effect, window: Window) -> FadeTimes:
+def _span(effect: Effect, window: EffectTimes) -> FadeTimes:
     """Return when an effect comes and goes."""
     comes, stands, goes, gone = window
     if isinstance(effect.paint, Fade):

@@ -16,7 +16,7 @@ from shotc.ir.effects import Chase, Color, Fade, Image, Ramp, Sparkle, Way
 from shotc.ir.light_layers import Along, Band, Footage, Glints, Gradient, Order, Painted, Tint
 from shotc.ir.light_paints import reached
 from shotc.ir.limits import Vec3
-from shotc.passes.verify.fleets.effects.asked import Asked
+from shotc.passes.verify.fleets.effects.asked import AskedEffect
 from shotc.passes.verify.fleets.effects.screens import screen_error
 from shotc.passes.verify.fleets.effects.views import seen_from
 
@@ -40,7 +40,7 @@ class PaintError(NamedTuple):
     share: float
 
 
-def paint_error(asked: Asked, paint: Painted, drones: int) -> PaintError | None:
+def paint_error(asked: AskedEffect, paint: Painted, drones: int) -> PaintError | None:
     """Return how far a planned paint is from an effect; None if it is of another kind.
 
     drones : number of drones of the fleet
@@ -61,7 +61,7 @@ def _levels(one: Color, other: Color) -> float:
     return float(max(abs(a - b) for a, b in zip(one, other, strict=True)))
 
 
-def _ramp(ramp: Ramp, asked: Asked, paint: Gradient, drones: int) -> PaintError | None:
+def _ramp(ramp: Ramp, asked: AskedEffect, paint: Gradient, drones: int) -> PaintError | None:
     moves = ramp.period is not None
     if len(ramp.colors) != len(paint.colors) or paint.cyclic != moves:
         return None
@@ -82,7 +82,7 @@ def _ramp(ramp: Ramp, asked: Asked, paint: Gradient, drones: int) -> PaintError 
     return PaintError(levels, late, share)
 
 
-def _chase(chase: Chase, asked: Asked, paint: Band, drones: int) -> PaintError:
+def _chase(chase: Chase, asked: AskedEffect, paint: Band, drones: int) -> PaintError:
     late = _period_error(chase.period, paint.rate) + abs(paint.origin - asked.begins)
     share = max(
         abs(chase.length - paint.length), _way_error((chase.along, chase.center), asked, paint.along, drones)
@@ -95,7 +95,7 @@ def _sparkle(sparkle: Sparkle, paint: Glints) -> PaintError:
     return PaintError(_levels(sparkle.color, paint.color), late, share)
 
 
-def _image(image: Image, asked: Asked, paint: Footage) -> PaintError:
+def _image(image: Image, asked: AskedEffect, paint: Footage) -> PaintError:
     late = abs(paint.origin - asked.begins)
     if image.period is not None:
         late += abs(image.period - paint.ends[-1])
@@ -108,7 +108,7 @@ def _period_error(period: float, rate: float) -> float:
     return abs(1.0 / rate - period) if rate else float("inf")
 
 
-def _way_error(way: tuple[Way, Vec3 | None], asked: Asked, along: Along, drones: int) -> float:
+def _way_error(way: tuple[Way, Vec3 | None], asked: AskedEffect, along: Along, drones: int) -> float:
     """Return the largest error of a coordinate, at the lights and about them, as a share of its extent."""
     if way[0] == "index" or isinstance(along, Order):
         return 0.0 if way[0] == "index" and along == Order(drones) else float("inf")
@@ -123,7 +123,7 @@ def _about(places: Array) -> Array:
     return np.concatenate([places, middle + size * np.eye(3), middle - size * np.eye(3)])
 
 
-def _coordinate(way: tuple[Way, Vec3 | None], asked: Asked, at: Array) -> Array:
+def _coordinate(way: tuple[Way, Vec3 | None], asked: AskedEffect, at: Array) -> Array:
     """Return the coordinate of positions (k, 3) on a way through the lights of an effect, shape (k,)."""
     word, center = way
     low, high = asked.places.min(axis=0), asked.places.max(axis=0)
@@ -138,7 +138,7 @@ def _coordinate(way: tuple[Way, Vec3 | None], asked: Asked, at: Array) -> Array:
     return np.asarray((at @ axis - along.min()) / length)
 
 
-def _of_audience(word: Way, asked: Asked) -> Array:
+def _of_audience(word: Way, asked: AskedEffect) -> Array:
     """Return the level unit vector of a word that counts from the audience."""
     right = seen_from(asked.display.viewpoint, asked.places).right
     ahead = np.array([-right[1], right[0], 0.0])

@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.effects import Fit
 from shotc.ir.light_layers import Footage
 from shotc.ir.limits import Vec3
-from shotc.passes.verify.fleets.effects.views import View, seen_from, tangents
+from shotc.passes.verify.fleets.effects.views import Eye, seen_from, tangents
 
 LEAST_SLOPE = 1e-6
 """Least size of what an audience sees, as a tangent."""
@@ -52,7 +52,7 @@ def _shape_error(fit: Fit, image: Footage) -> float:
     return max(too_wide, too_narrow, 0.0)
 
 
-def _turn(view: View, image: Footage) -> float:
+def _turn(view: Eye, image: Footage) -> float:
     """Return how far the eye and the axes of an image are from those of the audience, as a share."""
     screen, distance = image.screen, float(np.linalg.norm(view.eye)) + 1.0
     off = float(np.linalg.norm(np.array(screen.eye) - view.eye)) / distance
