@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
 from itertools import count
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,6 +47,14 @@ class Foreseen:
     velocities: Array
 
 
+class Waiting(NamedTuple):
+    """A measurement that arrives at a time, seconds; of those of one time the first by number is first."""
+
+    arrival: float
+    number: int
+    measurement: Measurement
+
+
 @dataclass(slots=True)
 class TrackedTarget:
     """One moving target and its tracker in R runs.
@@ -59,7 +68,7 @@ class TrackedTarget:
     share: Array
     tracker: Tracker
     chances: Sequence[np.random.Generator]
-    waiting: list[tuple[float, int, Measurement]] = field(default_factory=list)
+    waiting: list[Waiting] = field(default_factory=list)
     numbers: count[int] = field(default_factory=count)
 
     def look(
@@ -78,12 +87,12 @@ class TrackedTarget:
         detected, used = detector.detections(uv, self.chances)
         time = float(film.times[k])
         fix = PictureFix(time, detected, believed, attitude.axes, half, detector.noise, used)
-        heappush(self.waiting, (time + detector.delay, next(self.numbers), fix))
+        heappush(self.waiting, Waiting(time + detector.delay, next(self.numbers), fix))
 
     def learn(self, time: float) -> None:
         """Update the tracker with all measurements that have arrived by a time."""
-        while self.waiting and self.waiting[0][0] <= time + ROUNDING_S:
-            self.tracker.take(heappop(self.waiting)[2])
+        while self.waiting and self.waiting[0].arrival <= time + ROUNDING_S:
+            self.tracker.take(heappop(self.waiting).measurement)
 
     def foreseen(self, times: Array) -> Foreseen:
         """Return what is known at the first of some times (M,), and where the target is expected at each."""
@@ -111,5 +120,5 @@ def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTar
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
     out = TrackedTarget(name, places, framed.share, tracker, pictures)
     for fix in fixes[1:]:
-        heappush(out.waiting, (fix.time + gps.delay, next(out.numbers), fix))
+        heappush(out.waiting, Waiting(fix.time + gps.delay, next(out.numbers), fix))
     return out

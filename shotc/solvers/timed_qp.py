@@ -9,6 +9,7 @@ the jerk of s. If they cannot be kept, one overdraft of all limits is minimised 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +23,25 @@ Array = NDArray[np.float64]
 OVERDRAFT_PRICE = 1e4
 
 
+class PathRates(NamedTuple):
+    """Derivatives of some channels by s over their limit, orders 1 to 3, shape (N + 1, dim) each."""
+
+    d1: Array
+    d2: Array
+    d3: Array
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class PathLimits:
     """The limits at the N + 1 knots, with the path at the last iterate.
 
     speed : shape (N + 1,), largest sdot
-    accelerations, jerks : (d1, d2, d3), each (N + 1, dim), derivatives by s over the limit
+    accelerations, jerks : one for each limit of the kind
     """
 
     speed: Array
-    accelerations: tuple[tuple[Array, Array, Array], ...]
-    jerks: tuple[tuple[Array, Array, Array], ...]
+    accelerations: tuple[PathRates, ...]
+    jerks: tuple[PathRates, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,6 +5,7 @@ a lost link.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 from shotc.stream.clock import PERIOD_S, FlightClock
 from shotc.stream.messages import GimbalManager, Home, LocalPosition, Message, Origin
@@ -20,13 +21,22 @@ AGAIN_S = 0.5
 """A request is repeated after this time: a radio link loses about one message in ten."""
 BEAT_S = 1.0
 POSITION_HZ = 10.0
-ASKED: tuple[tuple[type[Message], str, str], ...] = (
-    (Origin, "origin", "GPS_GLOBAL_ORIGIN"),
-    (Home, "home", "HOME_POSITION"),
-    (LocalPosition, "position", "LOCAL_POSITION_NED"),
-    (GimbalManager, "gimbal", "GIMBAL_MANAGER_INFORMATION"),
+
+
+class AskedMessage(NamedTuple):
+    """A message to request, the attribute of VehicleStatus that holds it, and its MAVLink name."""
+
+    kind: type[Message]
+    known: str
+    name: str
+
+
+ASKED = (
+    AskedMessage(Origin, "origin", "GPS_GLOBAL_ORIGIN"),
+    AskedMessage(Home, "home", "HOME_POSITION"),
+    AskedMessage(LocalPosition, "position", "LOCAL_POSITION_NED"),
+    AskedMessage(GimbalManager, "gimbal", "GIMBAL_MANAGER_INFORMATION"),
 )
-"""The messages to request: the attribute of VehicleStatus that holds each, and its MAVLink name."""
 
 
 def read(
@@ -55,7 +65,7 @@ def read(
 
 def missing(vehicle: VehicleStatus) -> Iterator[str]:
     """Yield the MAVLink names of missing answers, except those that some versions lack."""
-    yield from (name for _, known, name in ASKED if known != "gimbal" and getattr(vehicle, known) is None)
+    yield from (m.name for m in ASKED if m.known != "gimbal" and getattr(vehicle, m.known) is None)
     pilot = vehicle.autopilot
     yield from (n for n in pilot.parameters if n not in vehicle.parameters and not pilot.can_lack(n))
 
@@ -78,9 +88,9 @@ def _take_station(vehicle: VehicleStatus) -> None:
 def _ask(vehicle: VehicleStatus) -> None:
     if vehicle.heartbeat is None or vehicle.heartbeat.autopilot != vehicle.autopilot.number:
         return
-    for message, known, _ in ASKED:
-        if getattr(vehicle, known) is None:
-            vehicle.link.ask(message)
+    for message in ASKED:
+        if getattr(vehicle, message.known) is None:
+            vehicle.link.ask(message.kind)
     if not vehicle.parameters:  # first request
         vehicle.link.stream(LocalPosition, POSITION_HZ)
     for name in vehicle.autopilot.parameters:

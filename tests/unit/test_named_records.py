@@ -1,4 +1,4 @@
-"""Functions take and give named records, no tuples of three or more values of different kinds."""
+"""Functions and fields hold named records, no tuples of three or more values of different kinds."""
 
 from __future__ import annotations
 
@@ -19,13 +19,16 @@ POINTS = frozenset({"Spot"})
 
 
 def nameless(module: ast.Module) -> Iterator[str]:
-    """Yield the functions whose annotations hold such a tuple, and the aliases of one."""
+    """Yield functions, fields and constants that are annotated with such a tuple, and the aliases of one."""
     for node in ast.walk(module):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name not in SORT_KEYS:
             arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
             types = [a.annotation for a in arguments] + [node.returns]
             if any(map(_holds_one, (t for t in types if t is not None))):
                 yield node.name
+        elif isinstance(node, ast.ClassDef | ast.Module):
+            fields = (item for item in node.body if isinstance(item, ast.AnnAssign))
+            yield from (ast.unparse(field.target) for field in fields if _holds_one(field.annotation))
         elif isinstance(node, ast.Assign) and _is_type(node.value) and _holds_one(node.value):
             yield from (n for n in map(ast.unparse, node.targets) if n not in POINTS)
 
@@ -65,6 +68,9 @@ def test_functions_take_and_give_named_records() -> None:
         ("def f(*, a: list[tuple[Array, Array, Array]]) -> None: ...", ["f"]),
         ("class A:\n    def _g(self, a: tuple[int, str, None] | None) -> None: ...", ["_g"]),
         ("Key = tuple[str, str | None, str]", ["Key"]),
+        ("class A:\n    rows: tuple[tuple[Array, Array, Array], ...]", ["rows"]),
+        ("best: tuple[float, str, int] | None = None", ["best"]),
+        ("def f() -> None:\n    heap: list[tuple[float, int, str]] = []", []),
         ("Spot = tuple[float, float, float | None]", []),
         ("def f(a: tuple[float, float, float], b: tuple[Array, Array]) -> tuple[Array, ...]: ...", []),
         ("def worth(a: int) -> tuple[bool, bool, float]: ...", []),

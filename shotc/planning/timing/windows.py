@@ -12,7 +12,7 @@ from shotc.planning.timing.limits import Ceiling, LimitedNorm
 from shotc.planning.timing.move import TimedMove, axes_of
 from shotc.planning.timing.profile import Profile
 from shotc.solvers.conic import Status
-from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
+from shotc.solvers.timed_qp import PathLimits, PathRates, TimeLaw, time_law
 
 Array = NDArray[np.float64]
 
@@ -76,10 +76,10 @@ def _path_limits(path: Piecewise, limits: tuple[LimitedNorm, ...], s: Array) -> 
             continue
         if axis.acceleration is not None:
             most = axis.acceleration[1]
-            accelerations.append((d1 / most, d2 / most, d3 / most))
+            accelerations.append(PathRates(d1 / most, d2 / most, d3 / most))
         if axis.jerk is not None:
             most = axis.jerk[1]
-            jerks.append((d1 / most, d2 / most, d3 / most))
+            jerks.append(PathRates(d1 / most, d2 / most, d3 / most))
     speed = np.sqrt(rate_cap(derivatives[0], limits))
     return PathLimits(speed, tuple(accelerations), tuple(jerks))
 

@@ -9,6 +9,7 @@ acceleration^2 + weight rate^2. Acceleration alone would prefer full turns in on
 from __future__ import annotations
 
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,14 @@ from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, tu
 
 MOST_CHOICES = 12  # choices that are tried
 SAME_ENERGY_SHARE = 1e-9  # relative tolerance of equal energies
+
+
+class _Solved(NamedTuple):
+    """A choice of turns: its energy with the limits, its angles (N,) at the keyframes, and its curve."""
+
+    energy: float
+    angles: Array
+    curve: Piecewise
 
 
 def by_winding(task: HeadingTask) -> Headings:
@@ -51,19 +60,19 @@ def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Deco
     The energy without limits is a lower bound of that with limits.
     """
     least = [cost.of(angles, cost.slopes(angles)) for angles in choices]
-    best: tuple[float, Array, Piecewise] | None = None
+    best: _Solved | None = None
     certain = not decoded.points or len(choices) == 1
     for k in sorted(range(len(choices)), key=lambda k: least[k]):
-        if best is not None and least[k] >= best[0] * (1 - SAME_ENERGY_SHARE):
+        if best is not None and least[k] >= best.energy * (1 - SAME_ENERGY_SHARE):
             certain = True
             break
         curve = bounded_cubic(task, cost, choices[k])
         if curve is None:
             continue
         spent = cost.of(choices[k], np.asarray(curve.derivative()(curve.breaks)[:, 0]))
-        if best is None or spent < best[0] * (1 - SAME_ENERGY_SHARE):
-            best = (spent, choices[k], curve)
+        if best is None or spent < best.energy * (1 - SAME_ENERGY_SHARE):
+            best = _Solved(spent, choices[k], curve)
     complete = certain and not decoded.capped
     if best is None:
         return Headings(Status.INFEASIBLE, choices[0], None, decoded.nodes, complete)
-    return Headings(Status.SOLVED, best[1], best[2], decoded.nodes, complete)
+    return Headings(Status.SOLVED, best.angles, best.curve, decoded.nodes, complete)

@@ -10,7 +10,7 @@ from shotc.simulation.aim import Shown, aim_rates, aimed
 from shotc.simulation.conditions import Conditions, Outage
 from shotc.simulation.gimbal import axes_of
 from shotc.simulation.kalman import MotionModel, PositionFix, projection
-from shotc.simulation.seen import TrackedTarget
+from shotc.simulation.seen import TrackedTarget, Waiting
 from shotc.simulation.sensors import PLAIN, RECKONED_M_S, RECKONED_M_S2, RTK, Detector, Gps, within
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.truth import Truth
@@ -93,7 +93,7 @@ def test_a_position_is_known_at_the_step_on_which_it_arrives():
     fix = PositionFix(stamp, np.ones((1, 3)), 0.02, np.ones(1, dtype=bool))
     tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), MotionModel(1.0))
     seen = TrackedTarget("walker", np.zeros((1, 1, 3)), np.zeros(1), tracker, chances(1))
-    heappush(seen.waiting, (stamp + 0.1, 0, fix))
+    heappush(seen.waiting, Waiting(stamp + 0.1, 0, fix))
     assert stamp + 0.1 > 0.3
     seen.learn(0.3)
     assert not seen.waiting

@@ -73,16 +73,16 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
     beside = _beside_meshes(mission, filmed)
     ideals = (fault for shot, film in filmed for fault in check_ideal(mission, shot, film))
     homes = [*check_homes(mission), *check_safety(mission), *beside.homes, *ideals, *passers_of(mission)]
-    places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
+    places = [_PlaceFault(shot, *fault) for shot in mission.shots for fault in _places(mission, shot)]
     places += beside.places
-    wrong = [(shot, path) for shot, path, d in places if has_errors([d])]
-    misplaced = {shot.path for shot, _ in wrong}
+    wrong = [fault for fault in places if has_errors([fault.diagnostic])]
+    misplaced = {fault.shot.path for fault in wrong}
     faults = [*homes, *(d for shot, film in filmed for d in check_reference(mission, shot, film))]
-    faults += [d for _, _, d in places]
+    faults += [fault.diagnostic for fault in places]
     well_placed = [(shot, film) for shot, film in filmed if shot.path not in misplaced]
     faults += [d for shot, film in well_placed for d in check_heights(mission, shot, film)]
     faults += [d for shot, film in well_placed for d in check_shake(mission, shot, film)]
-    faults += check_framing(mission, {path for _, path in wrong})
+    faults += check_framing(mission, {fault.path for fault in wrong})
     if timing:
         faults += check_timing(
             mission, [shot for shot, _ in well_placed], schedule=order and not homes and not wrong
@@ -98,11 +98,19 @@ def _shows_beyond(mission: MissionIR) -> Iterator[Diagnostic]:
         yield from check_show_covered(mission)
 
 
+class _PlaceFault(NamedTuple):
+    """A fault of a place of a shot; path : that of its keyframe."""
+
+    shot: Shot
+    path: KeyPath
+    diagnostic: Diagnostic
+
+
 class _MeshFaults(NamedTuple):
-    """Faults beside scenes and buildings: of homes, and of places of shots with their key paths."""
+    """Faults beside scenes and buildings: of homes, and of places of shots."""
 
     homes: tuple[Diagnostic, ...] = ()
-    places: tuple[tuple[Shot, KeyPath, Diagnostic], ...] = ()
+    places: tuple[_PlaceFault, ...] = ()
 
 
 def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _MeshFaults:
@@ -111,7 +119,7 @@ def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _M
     from shotc.passes.resolve.checks.beside_meshes import check_homes_beside, check_shot_beside
 
     faults = ((shot, check_shot_beside(mission, shot, film)) for shot, film in filmed)
-    places = tuple((shot, path, d) for shot, diagnosed in faults for path, d in diagnosed)
+    places = tuple(_PlaceFault(shot, path, d) for shot, diagnosed in faults for path, d in diagnosed)
     return _MeshFaults(tuple(check_homes_beside(mission)), places)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import ceil, dist
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
@@ -23,6 +24,23 @@ from shotc.show.labels import pads_path, wider
 UNEVEN_M = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
 FARTHEST_M = 60  # largest distance of the search for a free place, metres
 MANY_DRONES = 400  # most drones for which a free place is searched for
+
+
+class _Shift(NamedTuple):
+    """A move of a fleet's pads by metres along an axis (0: x, 1: y), and the direction in words."""
+
+    by: float
+    axis: int
+    direction: str
+
+
+class _Floor(NamedTuple):
+    """The least height of drones, the height of their lowest pad, metres, and what asks for it."""
+
+    least: float
+    pad: float
+    words: str
+    path: KeyPath
 
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
@@ -153,12 +171,15 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
     if none.
     """
     reach = max(standing.apart.across, moved.apart.across)
-    moves: list[tuple[float, int, str]] = []
+    moves: list[_Shift] = []
     for axis, (back, on) in enumerate((("west", "east"), ("south", "north"))):
         low, high = min(p[axis] for p in standing.pads), max(p[axis] for p in standing.pads)
         first, last = min(p[axis] for p in moved.pads), max(p[axis] for p in moved.pads)
-        moves += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
-    for by, axis, direction in sorted(moves, key=lambda option: abs(option[0])):
+        moves += [
+            _Shift(up(high + reach - first), axis, on),
+            _Shift(-up(last + reach - low), axis, back),
+        ]
+    for by, axis, direction in sorted(moves, key=lambda shift: abs(shift.by)):
         x, y = (by, 0.0) if axis == 0 else (0.0, by)
         there = _displaced(mission, moved, (x, y))
         others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
@@ -319,14 +340,16 @@ def _low_rise(
     over : height of the lowest pad above the ground, metres
     """
     lowest = min(z for _, _, z in fleet.pads)
-    floors: list[tuple[float, float, str, KeyPath]] = [
-        (mission.rules.ground_clearance, over, "the ground clearance", ("rules", "ground_clearance"))
+    floors = [
+        _Floor(mission.rules.ground_clearance, over, "the ground clearance", ("rules", "ground_clearance"))
     ]
     floors += [
-        (o.solid.bottom, lowest, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside
+        _Floor(o.solid.bottom, lowest, f"the floor of {o.owner.words}", o.owner.path)
+        for o in obstacles
+        if o.inside
     ]
-    floor_, from_, what, path = max(floors, key=lambda floor_entry: floor_entry[0] - floor_entry[1])
-    lacks = floor_ + fleet.radius - from_ - fleet.rise
+    least, pad, what, path = max(floors, key=lambda floor: floor.least - floor.pad)
+    lacks = least + fleet.radius - pad - fleet.rise
     if lacks <= ROUNDING_M:
         return
     label = mission.origins.value((*fleet.path, "rise"))
@@ -334,8 +357,8 @@ def _low_rise(
     z = "" if path[-1] == "ground_clearance" and mission.terrain is not None else "z = "
     unit = "" if z else " m over the ground"
     note = (
-        f"it rises {fleet.rise:.2f} m to {z}{from_ + fleet.rise:.2f}{unit}; {what} of {floor_:.2f} m and the "
-        f"body radius of {fleet.radius:.2f} m need {z}{floor_ + fleet.radius:.2f}{unit}"
+        f"it rises {fleet.rise:.2f} m to {z}{pad + fleet.rise:.2f}{unit}; {what} of {least:.2f} m and the "
+        f"body radius of {fleet.radius:.2f} m need {z}{least + fleet.radius:.2f}{unit}"
     )
     labels = (label, mission.origins.key(path, what)) if path in mission.origins.keys else (label,)
     message = f"{fleet.words} does not rise high enough to fly"
