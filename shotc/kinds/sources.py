@@ -148,7 +148,7 @@ def _without_units(scene: Scene, name: str, path: KeyPath) -> Diagnostic:
         "D025",
         f"nothing says how large `{name}` is",
         (scene.origins.value(path),),
-        (f"a {name.rsplit('.', 1)[-1].upper()} file has numbers without a unit",),
+        (f"{name.rsplit('.', 1)[-1].upper()} files have numbers without a unit",),
         "add `units: m` (or cm, mm, ft, in), or `height`, how tall the first frame is to be",
     )
 

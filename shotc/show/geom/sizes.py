@@ -8,6 +8,9 @@ from shotc.ir.show import Box, Model, Picture, RecordedFlight, Source, Sphere, T
 from shotc.rounding import up
 from shotc.show.geom.shape import balls, lowest
 
+SPARE_M = 0.02
+"""Metres that a picture is moved up beyond need: seen from below, its goals lie a little otherwise."""
+
 
 def resized(source: Source, change: Callable[[float], float]) -> Source:
     """Return a picture with all its sizes in metres changed by a function; a model without a height is
@@ -55,6 +58,16 @@ def size_words(before: Source, after: Source) -> str:
 def enlarged(picture: Picture, factor: float, floor: float, tall: float = 0.0) -> Picture:
     """Return an enlarged picture that stays above a height, metres."""
     return picture._replace(source=raised(larger(picture.source, factor, tall), floor))
+
+
+def lifted(picture: Picture, metres: float) -> Picture:
+    """Return a picture moved up by some metres, rounded up to a decimetre, if its centre is known; unchanged
+    for none or less.
+    """
+    if metres <= 0.0 or picture.source.centre is None:
+        return picture
+    x, y, z = picture.source.centre
+    return picture._replace(source=picture.source._replace(centre=(x, y, up(z + metres + SPARE_M, 1))))
 
 
 def _sizes(source: Source) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from shotc.show.goals.in_layers import layer_stats, seen_spacing
 from shotc.show.goals.layout import GoalLayout, PictureTask, growth, laid_out
 from shotc.show.goals.lettering import lettering_body
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
-from shotc.show.goals.remedies import PictureRemedies, remedies
+from shotc.show.goals.remedies import PictureRemedies, Trial, remedies
 from shotc.show.goals.solids import solid_body
 from shotc.show.goals.spaced import SpacingTask
 
@@ -83,7 +84,7 @@ def _few(task: PictureTask, setting: SpacingTask, body: PlacedShape, layout: Goa
     needed = lights_needed(source, body, layout.fill)
     if setting.number >= needed:
         return None
-    enough = needed if _shows_all(task, replace(setting, number=needed), task.picture) else None
+    enough = needed if _tried(task, replace(setting, number=needed), task.picture).whole else None
     numbers = (setting.number, enough)
     return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
 
@@ -97,21 +98,24 @@ def _remedies(
     tall = float(np.ptp(layout.placed[0].points[:, 2]))
     held = (layout.held, growth(task, bodies, layout))
 
-    def fits(picture: Picture) -> bool:
-        return _shows_all(task, setting, picture)
+    def tried(picture: Picture) -> Trial:
+        return _tried(task, setting, picture)
 
     lowest = task.mission.lowest(task.picture.source.centre or (0.0, 0.0, 0.0), task.fleet.radius)
-    return remedies(fits, task.picture, held, lowest, touching, tall)
+    return remedies(tried, task.picture, held, lowest, touching, tall)
 
 
-def _shows_all(task: PictureTask, setting: SpacingTask, picture: Picture) -> bool:
-    """Tell whether a changed picture shows all drones: it is laid out to find out."""
+def _tried(task: PictureTask, setting: SpacingTask, picture: Picture) -> Trial:
+    """Return what a changed picture gives: it is laid out to find out."""
     pictures = list(task.display.pictures)
     pictures[task.index] = picture
     changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
     bodies = bodies_of(picture, task.files)
     layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, setting, bodies)
-    return isinstance(layout, GoalLayout) and layout.bright == setting.number
+    if not isinstance(layout, GoalLayout):
+        return Trial(False, inf)
+    lowest = min(float(goals.shown[:, 2].min(initial=inf)) for goals in layout.placed)
+    return Trial(layout.bright == setting.number, lowest)
 
 
 def _frame(task: PictureTask, index: int, body: PlacedShape, layout: GoalLayout) -> Frame:

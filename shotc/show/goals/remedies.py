@@ -1,4 +1,4 @@
-"""Finds what helps if a picture has no room for a fleet: in closed form, then tried once as it would be
+"""Finds what helps if a picture has no room for a fleet: in closed form, then tried as it would be
 written.
 """
 
@@ -9,13 +9,21 @@ from math import sqrt
 from typing import NamedTuple
 
 from shotc.ir.show import Picture
-from shotc.show.geom.sizes import enlarged, size_words
+from shotc.show.geom.sizes import enlarged, lifted, size_words
 
 SPARE_RATIO, MORE_RATIO = 1.03, 1.08
 """Factor on the calculated growth, and a further factor if a try with the first fails."""
 
-Fits = Callable[[Picture], bool]
-"""Whether a picture shows all drones."""
+
+class Trial(NamedTuple):
+    """What a changed picture gives: whether it shows all drones, and the z of its lowest goal, metres."""
+
+    whole: bool
+    lowest: float
+
+
+Try = Callable[[Picture], Trial]
+"""Lays out a changed picture."""
 
 
 class PictureRemedies(NamedTuple):
@@ -53,7 +61,7 @@ class GoalCapacity(NamedTuple):
 
 
 def remedies(
-    fits: Fits, picture: Picture, held: tuple[int, float], lowest: float, touching: float, tall: float
+    tried: Try, picture: Picture, held: tuple[int, float], lowest: float, touching: float, tall: float
 ) -> PictureRemedies:
     """Return what helps.
 
@@ -64,9 +72,14 @@ def remedies(
     """
     number, growth = held
     factor = SPARE_RATIO * growth
-    if not fits(enlarged(picture, factor, lowest, tall)):
-        factor *= MORE_RATIO
     larger = enlarged(picture, factor, lowest, tall)
+    trial = tried(larger)
+    if not trial.whole:
+        factor *= MORE_RATIO
+        larger = enlarged(picture, factor, lowest, tall)
+        trial = tried(larger)
+    # Goals that are pushed apart may lie a little below the shape.
+    larger = lifted(larger, lowest - trial.lowest)
     share = 1.0 / factor
     return PictureRemedies(
         number or None,

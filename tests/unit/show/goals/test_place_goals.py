@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from math import inf, pi
 
@@ -216,6 +217,21 @@ def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -
     assert apart_enough(frame.points, crowd.apart)
     # Behind is beyond the picture, as the audience looks at it; North without one.
     assert frame.points[dark][:, 1].min() > frame.points[~dark][:, 1].max() + 1.0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("number", "side"), [(60, 5.0), (100, 3.0)])
+def test_the_larger_cube_of_the_help_shows_all_drones_and_is_not_too_low(number: int, side: float) -> None:
+    """Goals that are pushed apart lie below the edges of the cube, as near to the ground as it may come."""
+    cube, crowd = Box((0.0, 20.0, 6.0), (side,) * 3, 0.0), fleet(number)
+    done = PlaceGoals().run(show(display(picture(cube, fill="outline")), crowd), PassContext())
+    (warning,) = done.diagnostics
+    found = re.search(r"`size: ([0-9.]+), center: \[0, 20, ([0-9.]+)\]`", str(warning.help))
+    assert found
+    size, z = map(float, found.groups())
+    written = Box((0.0, 20.0, z), (size,) * 3, 0.0)
+    again = PlaceGoals().run(show(display(picture(written, fill="outline")), crowd), PassContext())
+    assert not again.diagnostics
 
 
 @pytest.mark.long
