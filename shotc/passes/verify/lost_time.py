@@ -2,9 +2,10 @@
 
 The least time of a way follows from its shape (``least_time``). A flight may take a multiple of it, because
 the estimate has no limit of jerk between the ends, and a constant. In a shot with a duration
-the least times are scaled to the duration first. Rest between two keyframes is lost time in whole, but for
-the holds that the mission asks for. On transits turns count once, from end to end, and the way
-is bounded by the straight line and by what stands, so that neither a turning camera nor circles take up time.
+the least times are scaled to the duration first. Where the time is free, rest between two keyframes is lost
+in whole, but for the holds that the mission asks for. On transits turns count once, from end to end, and the
+way is bounded by the straight line and by what stands, so that neither a turning camera nor circles take up
+time.
 """
 
 from __future__ import annotations
@@ -129,6 +130,7 @@ def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator
             lost += [(leg.lasts - SLOWER_RATIO * scale * leg.least, leg.start) for leg in legs]
             # The constant of each of many short legs would add up.
             lost.append((lasts - SLOWER_RATIO * scale * least, legs[0].start))
+        if not stretch.timed:
             lost += _rests([leg for leg in legs if leg.least > 0.0])
     worst, when = max(lost)
     limit = Limit(BETWEEN, KEYFRAMES_S, "s", placed.shot.path, shot=placed.shot.id)
