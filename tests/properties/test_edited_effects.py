@@ -13,7 +13,7 @@ import pytest
 from shotc import api
 from tests.support.compiled import compiled_text
 from tests.support.resealed_plans import Document, resealed
-from tests.unit.passes.verify.test_effects_of_fleets import SHOW
+from tests.unit.passes.verify.fleets.test_effects_of_fleets import SHOW
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("effects-of-fleets")]
 

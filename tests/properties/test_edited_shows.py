@@ -11,7 +11,7 @@ import pytest
 from shotc import api
 from tests.support.compiled import compiled_text
 from tests.support.resealed_plans import Document, refused
-from tests.unit.passes.verify.test_pictures_of_fleets import NOT_ASKED, SHOW, certificate
+from tests.unit.passes.verify.fleets.test_pictures_of_fleets import NOT_ASKED, SHOW, certificate
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("pictures-of-fleets")]
 
