@@ -48,7 +48,7 @@ def is_free(subject: ShotContext, condition: AimCondition, stages: Stages, refer
 
 
 def lens_bounds(drone: Drone, given: Array) -> tuple[float, float]:
-    """Return the smallest and largest field of view, rad: of the lens and of ``given``."""
+    """Return the smallest and largest field of view, rad: of the lens and of ``given`` (M,)."""
     assert drone.lens is not None
     return min(drone.lens.longest, float(given.min())), max(drone.lens.widest, float(given.max()))
 

@@ -17,7 +17,7 @@ def sight_point(
 ) -> Array:
     """Return the first point on a keyframe's centre ray on the ground, a target or a keep-out zone.
 
-    If the ray hits nothing, it is the point on the ray at the distance of the keyframe's target.
+    Shape (3,), metres. If the ray hits nothing, the point is as far as the keyframe's target.
     """
     yaw, pitch = angles[0], angles[1]
     eye = np.array(keyframe.at)

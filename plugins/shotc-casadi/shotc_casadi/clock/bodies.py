@@ -51,6 +51,8 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[MovingEllipsoid, ...
     """Return all obstacles of a shot at the nodes: targets, other drones, standing obstacles.
 
     A drone that needs no distance is a point without clearance and has no ellipsoid.
+
+    breaks : the times of the nodes, shape (N + 1,)
     """
     bodies = []
     for what in (motion.what for motion in around.motions):

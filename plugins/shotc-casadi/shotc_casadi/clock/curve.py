@@ -31,6 +31,8 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
     """Return the position of a solution, C2, with exactly the guide's ends.
 
     The run-up and the run-out absorb the deviation of the solution at both ends.
+
+    breaks : the times of the nodes, shape (N + 1,)
     """
     states = solution.states[:, :PLACE_STATES].copy()
     leg = subject.leg

@@ -92,7 +92,10 @@ class Occluder:
 
 
 def occluders_of(subject: ClockSubject, breaks: Array) -> tuple[Occluder, ...]:
-    """Return all occluders of the subjects at the nodes: zones, meshes, other targets, other drones."""
+    """Return all occluders of the subjects at the nodes: zones, meshes, other targets, other drones.
+
+    breaks : the times of the nodes, shape (N + 1,)
+    """
     return tuple(
         replace(occluder, before=i)
         for i, one in enumerate(subject.framed)
@@ -206,7 +209,7 @@ def occlusion_at(occluders: Sequence[Occluder], references: ClockReferences, eye
 
 
 def enclosing(part: Solid) -> tuple[Array, Array]:
-    """Return scale and centre of an ellipsoid around a convex solid; it is infinite if the solid is."""
+    """Return scale (3, 3) and centre (3,) of an ellipsoid around a convex solid; infinite if the solid is."""
     if isinstance(part, Cylinder):
         middle, flat = np.array(part.centre), np.eye(2) / part.radius
     else:

@@ -88,7 +88,7 @@ class ClockProblem:
 
 
 def breaks_of(subject: ClockSubject) -> Array:
-    """Return the times of the nodes: the guide's breaks, subdivided to the usual number in the film."""
+    """Return the times of the nodes (N + 1,): the guide's breaks, with the usual number in the film."""
     breaks, leg = subject.leg.curve.breaks, subject.leg
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     filmed = (middle > leg.start) & (middle < leg.end)
@@ -102,8 +102,9 @@ def breaks_of(subject: ClockSubject) -> Array:
 
 
 def guess(curve: Piecewise, breaks: Array, camera: Piecewise | None = None) -> tuple[Array, Array]:
-    """Return states and inputs along a position curve.
+    """Return states and inputs along a position curve, shapes (N + 1, 9 or 15) and (N, 4 or 5).
 
+    breaks : the times of the nodes, shape (N + 1,)
     camera : a leg whose camera angles are appended, if the camera is part of the problem
     """
     orders = [curve, curve.derivative(1), curve.derivative(2)]
@@ -126,7 +127,7 @@ def problem(
     use: Use,
     start: tuple[Array, Array],
 ) -> ClockProblem:
-    """Return the programme; start : states and inputs as from ``guess``.
+    """Return the programme; breaks : shape (N + 1,), start : states and inputs as from ``guess``.
 
     The initial slack of ellipsoids is one unit each.
     """

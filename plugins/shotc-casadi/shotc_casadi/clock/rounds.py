@@ -307,5 +307,8 @@ def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> C
 
 
 def flown_cost(task: ClockProblem, breaks: Array, leg: ClockLeg) -> float:
-    """Return the cost of a leg by a programme that contains the camera, with the leg's own camera."""
+    """Return the cost of a leg by a programme that contains the camera, with the leg's own camera.
+
+    breaks : the times of the nodes, shape (N + 1,)
+    """
     return cost(task, *guess(leg.curve, breaks, leg.curve))

@@ -106,7 +106,10 @@ def angles(curve: Piecewise, breaks: Array) -> Array:
 
 
 def turned(breaks: Array, states: Array) -> Piecewise:
-    """Return camera yaw and pitch of a solution as a curve."""
+    """Return camera yaw and pitch of a solution as a curve.
+
+    breaks : shape (N + 1,); states : as in ``ClockProblem``, shape (N + 1, sizes.states)
+    """
     value, rate, acceleration = (states[:, [YAW + k, PITCH + k]] for k in range(3))
     return quintic_hermite(breaks, value, rate, acceleration)
 

@@ -47,7 +47,10 @@ class Overflight(NamedTuple):
 
 
 def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) -> tuple[Overflight, ...]:
-    """Return the passes over the target that have room on their side, in time order."""
+    """Return the passes over the target that have room on their side, in time order.
+
+    breaks : the times of the nodes, shape (N + 1,)
+    """
     leg = subject.leg
     if not references.watches:
         return ()

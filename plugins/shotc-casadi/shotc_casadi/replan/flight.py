@@ -118,16 +118,19 @@ class ShotSolvers:
 
 
 def fault(given: Mapping[str, Sequence[Array]]) -> Replan:
-    """Return the failure of a replan, with the name of the first input that is not finite."""
+    """Return the failure of a replan, with the name of the first input that is not finite.
+
+    given : inputs by name, arrays of any shape
+    """
     broken = (name for name, arrays in given.items() if not all(np.isfinite(a).all() for a in arrays))
     return Replan(None, "failed", next((f"{name} is not finite" for name in broken), BEYOND))
 
 
 def sent(traffic: Traffic) -> list[Array]:
-    """Return all arrays that other drones have sent."""
+    """Return all arrays that other drones have sent; shapes as in ``Traffic``."""
     return [traffic.others, *(a for cone in traffic.cones for a in (cone.apex, cone.axis))]
 
 
 def beside(walls: Walls) -> list[Array]:
-    """Return all arrays of half-spaces."""
+    """Return all arrays of half-spaces; shapes as in ``Walls``."""
     return [walls.normals, walls.offsets]
