@@ -351,7 +351,7 @@ OF_FLIGHTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/solvers/headings/winding.py",
-        "if best is not None and least[k] >= best[0] * (1 - SAME_ENERGY_SHARE):",
+        "if best is not None and least[k] >= best.energy * (1 - SAME_ENERGY_SHARE):",
         "-  ->  +",
         "a choice of the same energy is solved as well, and the first one is kept",
     ),
