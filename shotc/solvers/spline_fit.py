@@ -19,6 +19,8 @@ from shotc.solvers.equality_qp import minimise_under_equalities
 from shotc.solvers.spline_problem import scalar_map, terms
 
 SOLVER_TOLERANCE = 1e-8
+ROUNDING_RAD = 1e-9
+LEAST_UNIT_RAD = 1e-4  # unit of a change in the solver
 TOUCH_TOLERANCE = 3e-7  # a third of verification's tolerance of a limit
 
 
@@ -54,10 +56,10 @@ def fit(task: Fit) -> tuple[Status, Array]:
     if task.low is None or task.high is None:
         return Status.SOLVED, coef
     points = control_rows(task.breaks).apply(coef[:, None])[:, 0]
-    slack = np.minimum(points - task.low.ravel(), task.high.ravel() - points)
-    if slack.min() >= -1e-9:
+    beyond = np.maximum(task.low.ravel() - points, points - task.high.ravel()).max()
+    if beyond <= ROUNDING_RAD:
         return Status.SOLVED, coef
-    return _bounded(task, coef)
+    return _bounded(task, coef, max(float(beyond), LEAST_UNIT_RAD))
 
 
 def within(points: Array, low: Array | float, high: Array | float) -> Array:
@@ -71,25 +73,24 @@ def within(points: Array, low: Array | float, high: Array | float) -> Array:
     return np.asarray(np.where(np.abs(inside - points) > TOUCH_TOLERANCE, inside, points))
 
 
-def _least_squares(task: Fit) -> tuple[Any, Array]:
-    from scipy.sparse import vstack
-
-    size = count(task.breaks)
-    root = np.sqrt(task.weight)
-    samples = value_rows(task.breaks, task.at)
-    parts = [
-        scalar_map(_scaled(samples, root), size),
-        scalar_map(_stiff(task, 1, task.stiffness[0]), size),
-        scalar_map(_stiff(task, 3, task.stiffness[1]), size),
-    ]
-    rhs = np.concatenate([root * task.value, np.zeros(parts[1].shape[0] + parts[2].shape[0])])
-    return vstack(parts, format="csr"), rhs
+def _costs(task: Fit) -> SplineFunctionals:
+    """Return the rows whose squares add up to the cost, if the values are zero: samples, rate, third."""
+    parts = (
+        _scaled(value_rows(task.breaks, task.at), np.sqrt(task.weight)),
+        _stiff(task, 1, task.stiffness[0]),
+        _stiff(task, 3, task.stiffness[1]),
+    )
+    return SplineFunctionals(
+        np.concatenate([p.piece for p in parts]), np.concatenate([p.weight for p in parts])
+    )
 
 
 def _unbounded(task: Fit) -> Array | None:
     """Return the coefficients of the best curve without bounds; None if they are not unique."""
-    matrix, rhs = _least_squares(task)
-    size = matrix.shape[1]
+    size = count(task.breaks)
+    matrix = scalar_map(_costs(task), size)
+    rhs = np.zeros(matrix.shape[0])
+    rhs[: len(task.at)] = np.sqrt(task.weight) * task.value
     binding, bound = _anchors(task)
     fixed = scalar_map(binding, size) if len(bound) else _mean(task, size)
     bound = bound if len(bound) else np.array([np.average(task.value, weights=task.weight)])
@@ -122,16 +123,19 @@ def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:
     return both, np.concatenate([task.anchor, task.slope])
 
 
-def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
-    """Solve for the change from the optimum without bounds, which keeps the numbers small."""
-    matrix, _ = _least_squares(task)
-    matrix = matrix / max(float(abs(matrix).max()), 1e-12)
-    size = matrix.shape[1]
+def _bounded(task: Fit, free: Array, unit: float) -> tuple[Status, Array]:
+    """Solve for the change from the optimum without bounds, which keeps the numbers small.
+
+    unit : of the change in the solver, such as how far that optimum is beyond its bounds
+
+    The residuals are unknowns of their own. Without them the Hessian would square the coefficients, which
+    grow with the third power of the number of pieces, and Clarabel would end far from the optimum.
+    """
+    costs, size, points = _costs(task), count(task.breaks), control_rows(task.breaks)
     assert task.low is not None
     assert task.high is not None
-    points = control_rows(task.breaks)
     at = points.apply(free[:, None])[:, 0]
-    programme = ConeRows(size)
+    programme = ConeRows(size + len(costs.piece))
     for sign, bound in ((1.0, task.low.ravel()), (-1.0, task.high.ravel())):
         bounds = np.isfinite(bound)
         rows = SplineFunctionals(points.piece[bounds], points.weight[bounds])
@@ -139,10 +143,13 @@ def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     binding, _ = _anchors(task)
     if len(binding.piece):
         programme.zero(terms(binding))
-    status, change = programme.solve(np.zeros(size), SOLVER_TOLERANCE, 2.0 * (matrix.T @ matrix))
+    residuals = size + np.arange(len(costs.piece))
+    programme.zero([*terms(costs), (residuals, np.full(len(residuals), -1.0))])
+    hessian = np.where(np.arange(programme.unknowns) < size, 0.0, 2.0 / unit**2)
+    status, change = programme.solve(np.zeros(programme.unknowns), SOLVER_TOLERANCE, hessian)
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return status, np.zeros(size)
-    return status, np.asarray(free + change)
+    return status, np.asarray(free + change[:size])
 
 
 def _stiff(task: Fit, order: int, weight: float | Array) -> SplineFunctionals:

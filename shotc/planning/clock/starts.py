@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import takewhile
+from itertools import pairwise, takewhile
 from math import inf
 
 import numpy as np
@@ -32,7 +32,7 @@ from shotc.planning.path.shots import Failure
 from shotc.rounding import down, up
 
 MOST_TRIES = 10
-LATE_TRIES = 4  # tries, after which a drone that falls further behind is given up
+LATE_TRIES = 4  # tries in a row at which a drone gains nothing, after which it is given up
 CLOSE_S = 0.3  # seconds between a late start and one in time, at which the search ends
 SPARE_S = 0.1  # seconds by which a drone is early if the start is free
 STEEPEST_RATIO = 0.95  # largest growth of the correction per second of delay
@@ -257,13 +257,15 @@ def too_late(
 def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, float]) -> float | None:
     """Return the first start within a span that is in time by the corrected estimate; None if there is none.
 
-    If the correction grew, that may be the cost of another transfer, which occurs once. Therefore the
-    correction is taken as constant for a few tries before the drone is given up.
+    If the correction grew, that may be the cost of another transfer, or of a wait for somebody who passes,
+    which occurs once. Therefore the correction is taken as constant until some tries in a row gain nothing.
     """
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
     start = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATIO))
-    return _soonest(about, off, span, 0.0) if start is None and len(off) < LATE_TRIES else start
+    late = [about(at) + lack for at, lack in off[-LATE_TRIES:]]
+    gains_nothing = len(late) == LATE_TRIES and all(a <= b for a, b in pairwise(late))
+    return _soonest(about, off, span, 0.0) if start is None and not gains_nothing else start
 
 
 def _soonest(

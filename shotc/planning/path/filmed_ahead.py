@@ -23,6 +23,7 @@ from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
 
 YAW_CHANNEL = 0
+ROUNDING_RAD = 1e-9
 ROOM_SHARES = (0.3, 0.6, 0.8)
 """Least width of the yaw bounds over the cone's opening; larger ones are tried if smaller ones fail."""
 
@@ -94,7 +95,7 @@ def _cone(drone: Drone, course: CourseBounds, camera: Piecewise) -> tuple[Array,
     yaw = camera.ctrl[:, :, YAW_CHANNEL]
     if drone.body == "follow-camera":
         low, high = yaw.max(axis=1), yaw.min(axis=1)
-        inside = (low <= course.high).all() and (high >= course.low).all()
+        inside = (low <= course.high + ROUNDING_RAD).all() and (high >= course.low - ROUNDING_RAD).all()
         return (course.low, course.high) if inside else None
     least, most = drone.gimbal.yaw
     offset = np.median(

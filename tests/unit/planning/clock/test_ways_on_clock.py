@@ -238,6 +238,23 @@ def test_a_way_that_costs_more_once_is_no_reason_to_give_a_drone_up() -> None:
     assert found.shot.leg.start == pytest.approx(15.0, abs=CLOSE_S + 2 * SPARE_S / 0.8)
 
 
+def test_a_drone_that_has_to_wait_at_the_fourth_try_is_not_given_up() -> None:
+    """It gains at three tries; then somebody passes its way, and it loses 3.5 s."""
+    lateness = iter([10.1, 3.7, 2.1, 5.6, 0.5, -0.1])
+
+    class Waiting(Chaser):
+        def __call__(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
+            reached = super().__call__(placed, start)
+            assert isinstance(reached, Reached)
+            return replace(reached, late=next(lateness))
+
+    mission, chaser = pair(), Waiting(0.5, 8.5)
+    found = put_off(mission, chaser, PlacedShot(mission.shots[0], ()), 6.0, lambda start: 6.0 - 0.8 * start)
+    assert isinstance(found, Reached)
+    assert found.late <= 0.0
+    assert found.shot.leg.start == chaser.starts[5]
+
+
 FOLLOWED = """\
 shotc: 1
 mission: two
