@@ -17,8 +17,11 @@ from tests.support.generated.missions import Mission, mission
 
 pytestmark = pytest.mark.slow
 
+QUICK = (60005, 60162, 60018, 60079, 60197, 60210, 60058, 60098, 60023)
+"""Missions of ``make test`` of one drone each; ``tests/golden`` plans 23 more there."""
+
 FEW = (1, 12, 18, 33, 41)
-"""Small missions of ``make test``, at most two drones with a shot each; ``tests/golden`` has 44 more."""
+"""Small missions of ``make test-all``, at most two drones with a shot each."""
 
 MANY = range(300)
 """Missions of ``make fuzz``."""
@@ -31,6 +34,18 @@ KINDS = {
 
 def small(seed: int) -> Mission:
     return mission(seed, most_drones=2, most_takes=1)
+
+
+@pytest.mark.parametrize("seed", QUICK)
+def test_a_mission_of_one_drone_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
+    assert_planned_and_whole(mission(seed))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [60053, 60071])
+def test_what_was_refused_is_planned(seed: int) -> None:
+    """A free body was led astray by its fit (R009), and a drone that had to wait was given up (T003)."""
+    assert_planned_and_whole(mission(seed))
 
 
 @pytest.mark.long
