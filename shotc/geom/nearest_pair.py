@@ -96,7 +96,9 @@ class NearestPair:
         return norm(relative)
 
     def least(self, ctrl: Array) -> Array:
-        """Return lower bounds of ``size`` along cubics, by planes perpendicular to their middles."""
+        """Return lower bounds (M,) of ``size`` along cubics (M, 4, 3), by planes perpendicular to their
+        middles.
+        """
         middle = midway(ctrl)
         if not self.upright:
             return least_along(ctrl, middle)

@@ -52,7 +52,7 @@ class Guesser(NamedTuple):
     def box(self, picture: Array) -> ScreenBox | Diagnostic | None:
         """Return the box that the model gives, None if it gives none, or a diagnostic if the box is unusable.
 
-        picture : as in ``Saliency.box``
+        picture : shape (rows, columns, 3), as in ``Saliency.box``
         """
         what = f"saliency model `{self.model.name}`"
         try:

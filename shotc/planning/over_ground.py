@@ -44,7 +44,7 @@ class OverGround:
     flipped: bool = False
 
     def owner_at(self, _: Array) -> Owner:
-        """Return the owner, which is the same everywhere."""
+        """Return the owner, which is the same at every place, shape (3,)."""
         return self.owner
 
     def lowered(self, metres: float) -> OverGround:

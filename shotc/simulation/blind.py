@@ -57,7 +57,7 @@ class BlindHold:
     _back: Fading | None = None
 
     def setpoint(self, k: int, _drone: tuple[Array, Array]) -> VehicleSetpoint:
-        """Return the setpoint at a step; called at every step in order."""
+        """Return the setpoint at a step, for R runs, shapes (R, 3); called at every step in order."""
         time, planned = float(self.film.times[k]), self.film.setpoint(k)
         runs = len(self.world.runs)
         if within(time, self.held):

@@ -52,7 +52,7 @@ class MotionModel:
 
     def span(self, seconds: Array | float) -> Array:
         """Return the seconds of motion that a deviation from the course's velocity contributes in
-        some time.
+        some time, shape (...) of ``seconds``.
         """
         if self.memory == inf:
             return np.asarray(seconds)

@@ -51,7 +51,7 @@ class RotorPyPlant:
         )
 
     def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
-        """Return the state a ``STEP_S`` later (``vehicle.Plant``)."""
+        """Return the state a ``STEP_S`` later; arrays of shape (R, 3), as in ``vehicle.Plant``."""
         up = np.array([0.0, 0.0, self._body.g])
         for r, each in enumerate(self._states):
             each["wind"] = wind[r]

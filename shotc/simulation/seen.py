@@ -76,7 +76,7 @@ class TrackedTarget:
     ) -> None:
         """Take a picture if one is due.
 
-        eyes : true and estimated positions of the cameras
+        eyes : true and estimated positions of the cameras, shape (R, 3) each
         """
         detector = conditions.detector
         if detector is None or k % round(detector.period / STEP_S) or self.share[k] == 0.0:

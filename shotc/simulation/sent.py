@@ -175,7 +175,7 @@ class Sent:
         return optical_axes(*planned.T)
 
     def films(self, stages: Array) -> bool:
-        """Return whether it films at any of these times."""
+        """Return whether it films at any of these times, shape (M,)."""
         return any(
             phase.shot is not None and phase.start <= stages[-1] and stages[0] <= phase.end
             for phase in self.film.track.phases

@@ -108,7 +108,7 @@ class Lagging:
     vehicle: Vehicle
 
     def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
-        """Return the state a ``STEP_S`` later."""
+        """Return the state a ``STEP_S`` later; arrays of shape (R, 3), as in ``Plant``."""
         h, vehicle = STEP_S, self.vehicle
         rotors = state.acceleration + (pushed - state.acceleration) * (1.0 - exp(-h / vehicle.lag))
         velocity = state.velocity + h * (rotors + vehicle.drag * (wind - state.velocity))

@@ -54,7 +54,7 @@ class World:
         return moving or name in dict(self.conditions.truth.tracks)
 
     def target(self, name: str, run: int, times: Array) -> Target:
-        """Return a target with its true track in one run, sampled at some times.
+        """Return a target with its true track in one run, sampled at times (M,).
 
         run : index of the run
         """

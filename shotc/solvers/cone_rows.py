@@ -57,11 +57,11 @@ class ConeRows:
         self._count = 0
 
     def zero(self, terms: list[Term], constant: Array | None = None) -> None:
-        """Require constant + terms = 0."""
+        """Require constant + terms = 0; constant : shape (R,)."""
         self._add("zero", [np.zeros(len(terms[0][0])) if constant is None else constant], [terms])
 
     def positive(self, constant: Array, terms: list[Term]) -> None:
-        """Require constant + terms >= 0."""
+        """Require constant + terms >= 0; constant : shape (R,)."""
         self._add("positive", [constant], [terms])
 
     def second_order(
@@ -69,7 +69,7 @@ class ConeRows:
     ) -> None:
         """Require that the first entry bounds the norm of the others.
 
-        constant : of the first entry; rest : constants of the others, zero by default
+        constant : of the first entry, shape (R,); rest : constants of the others, zero by default
         """
         others = rest if rest is not None else [np.zeros_like(constant)] * (len(entries) - 1)
         self._add("cone", [constant, *others], entries)
@@ -99,6 +99,7 @@ class ConeRows:
         """Minimise cost.x + x.hessian.x / 2; return the status and x (meaningless unless SOLVED or
         INACCURATE).
 
+        cost : shape (unknowns,)
         hessian : a sparse matrix, or its diagonal as an array; None for a linear cost
         scaled : whether unknowns and rows are scaled already; then Clarabel's equilibration is switched off,
             because it would only be slower

@@ -31,8 +31,8 @@ class PlaceTimes(NamedTuple):
         return float(np.max(takes / np.maximum(given, 1e-9), initial=0.0)) - 1.0
 
     def kept(self, s: Array, t: Array, pace: float) -> Array:
-        """Return the times t of a motion, scaled so that it meets every place; pace : after the last
-        place.
+        """Return the times t of a motion (s, t) of shapes (M,), scaled so that it meets every place; pace :
+        after the last place.
         """
         known = np.interp(self.s, s, t)
         after = self.t[-1] + (t - known[-1]) / pace

@@ -83,7 +83,9 @@ class CameraAndBody:
         return self.mission.drone(self.other.drone)
 
     def out(self, t: Array) -> Array:
-        """Return how far the other drone is out of the picture: metres, or rad from the axis for a cone."""
+        """Return how far the other drone is out of the picture at times (M,), shape (M,): metres, or rad from
+        the axis for a cone.
+        """
         return self.out_at(t, self.other.curve(t)[:, :3])
 
     def out_at(self, t: Array, places: Array) -> Array:

@@ -90,7 +90,7 @@ class Surroundings:
     def half_spaces(self, hulls: Array, reach: float, share: float) -> HalfSpaces:
         """Return half-spaces between pieces and the obstacles near them.
 
-        hulls : as in ``lacking``
+        hulls : shape (P, 6, 3), as in ``lacking``
         reach : metres beyond its clearance within which a wall counts
         share : share of a piece's slack beyond a wall that is kept
         """

@@ -59,7 +59,7 @@ class PlannedTurn:
     yaw: Piecewise
 
     def covers(self, s: Array) -> Mask:
-        """Return for which path parameters it is planned."""
+        """Return for which path parameters (M,) it is planned, shape (M,)."""
         return np.asarray((s >= self.clock.start) & (s <= self.clock.end))
 
     def at(self, s: Array) -> Array:

@@ -58,6 +58,7 @@ class Mover:
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move.
 
+        here, there : positions of all drones, shape (n, 3), metres
         picture : its goal; None for the return
         """
         path = "auto" if picture is None else picture.transition_path

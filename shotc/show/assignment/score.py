@@ -50,7 +50,7 @@ class FlightScore:
     def after(breaks: Array, coef: Array) -> FlightScore:
         """Return a trajectory that continues a spline from its final stop.
 
-        breaks, coef : as in FleetTrajectory
+        breaks, coef : shapes (P + 1,) and (n, P + 3, 3), as in FleetTrajectory
         """
         score = FlightScore(coef[:, -1])
         score._points, score._breaks = list(np.moveaxis(coef, 1, 0)), breaks.tolist()
@@ -67,7 +67,7 @@ class FlightScore:
             self._add([self.places], seconds)
 
     def move(self, places: Array, move: Motion | LayeredMove, duration: float | None = None) -> None:
-        """Append a move from stop to stop, in ``duration`` seconds if given."""
+        """Append a move to a stop at places (n, 3), in ``duration`` seconds if given."""
         between = written(move, self.places, places)
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
@@ -75,7 +75,10 @@ class FlightScore:
         self.lifted = max(self.lifted, move.height if isinstance(move, LiftedMove) else 0.0)
 
     def retrace(self, breaks: Array, coef: Array, slower: float = 1.0) -> None:
-        """Append a flight between two stops, backwards and ``slower`` times as long."""
+        """Append a flight between two stops, backwards and ``slower`` times as long.
+
+        breaks, coef : shapes (P + 1,) and (n, P + 3, 3)
+        """
         self._points += list(np.moveaxis(coef[:, -4::-1], 1, 0))
         origin, passed = self.clock, slower * (breaks[-1] - breaks[-2::-1])
         self._breaks += [round(origin + seconds, 9) for seconds in passed.tolist()]
@@ -84,7 +87,7 @@ class FlightScore:
     def fly(self, breaks: Array, coef: Array) -> None:
         """Append a flight from the last positions to a stop.
 
-        breaks, coef : as in Recorded
+        breaks, coef : shapes (P + 1,) and (n, P + 3, 3), as in Recorded
         """
         origin = self.clock
         self._points += list(np.moveaxis(coef[:, DEGREE:], 1, 0))
@@ -92,7 +95,7 @@ class FlightScore:
         self.places = coef[:, -1]
 
     def animate(self, frames: Sequence[Array], period: float) -> list[float]:
-        """Append frames, one after another, the last one as a stop; return the time of each.
+        """Append frames (n, 3), one after another, the last one as a stop; return the time of each.
 
         The first three control points are the last stop, which is the frame before these.
         """
@@ -112,7 +115,7 @@ class FlightScore:
         self.phases.append(Phase(name, shot, start, self.clock if end is None else end))
 
     def spline(self) -> tuple[Array, Array]:
-        """Return breaks and control points written so far, as in FleetTrajectory."""
+        """Return breaks (P + 1,) and control points (n, P + 3, 3) written so far, as in FleetTrajectory."""
         return np.array(self._breaks), np.stack(self._points, axis=1)
 
     def trajectory(self, fleet: str, lights: Lights) -> FleetTrajectory:

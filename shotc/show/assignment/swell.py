@@ -50,7 +50,10 @@ class Heights:
     high: float
 
     def lack(self, ends: Ends, ctrl: Array, pivot: Array) -> float:
-        """Return the lack of height by the closed-form bound; the formations' own lack is not counted."""
+        """Return the lack of height by the closed-form bound; the formations' own lack is not counted.
+
+        ctrl : as in ``ArcMove``, shape (P + 3, 2); pivot : c, shape (3,)
+        """
         low, high = self.beside(ends)
         before, after = (e[:, 2] - pivot[2] for e in ends)
         down = float((ctrl @ [before.min(), after.min()]).min()) + pivot[2]
@@ -58,7 +61,10 @@ class Heights:
         return float(max(low - down, up - high, 0.0))
 
     def pivot(self, ends: Ends, ctrl: Array, height: float) -> float:
-        """Return the height of c nearest to the wanted one that keeps both heights, or the lower one."""
+        """Return the height of c nearest to the wanted one that keeps both heights, or the lower one.
+
+        ctrl : as in ``ArcMove``, shape (P + 3, 2)
+        """
         low, high = self.beside(ends)
         swell = 1.0 - ctrl.sum(axis=1)
         out = swell < -1e-6

@@ -63,7 +63,9 @@ class Leash:
     looser: float = 0.0
 
     def drawn(self, goals: Array, which: Numbers, iterations: int) -> Array:
-        """Return goals with those that are too far drawn back, after ``iterations`` iterations."""
+        """Return goals (m, D), numbers ``which``, with those that are too far drawn back, after some
+        iterations.
+        """
         return leashed(
             goals, self.shape, self.lengths[which] * (1.0 + self.looser * iterations / MOST_ROUNDS)
         )

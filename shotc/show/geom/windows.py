@@ -34,7 +34,7 @@ class Window:
         return slice(self.first, self.last)
 
     def breaks(self, breaks: Array) -> Array:
-        """Return its own breaks."""
+        """Return its own of all breaks (P + 1,), shape (pieces + 1,)."""
         return breaks[self.first : self.last + 1]
 
 

@@ -74,7 +74,7 @@ class FlatBody:
         return self.standing(np.concatenate(parts)) if parts else None
 
     def encloses(self, place: Array) -> bool:
-        """Return False, because it has no inside."""
+        """Return False for a place (3,), because it has no inside."""
         return False
 
     def colors(self, places: Array) -> Colors | None:

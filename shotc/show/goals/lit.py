@@ -109,11 +109,11 @@ class Strokes:
 
     @property
     def scale(self) -> Array:
-        """Return the factors of right and up in that metric."""
+        """Return the factors of right and up in that metric, shape (2,)."""
         return np.array([1.0, self.setting.stretch])
 
     def placed(self, flat: Array) -> Array:
-        """Return the positions in the world frame of places in the plane."""
+        """Return the positions in the world frame, (n, 3), of places in the plane, (n, 2)."""
         return self.body.standing(flat / self.scale)
 
     def even(self, number: int, factor: Array) -> Array:
@@ -127,7 +127,7 @@ class Strokes:
         return centroids(self.body.flat(self.goals.points) * factor, number).goals / factor
 
     def all_of(self, number: int, slack: float) -> Array | None:
-        """Return that many goals: uniform in space if they fit, else uniform in the metric of the fleet."""
+        """Return that many goals, (number, 2): uniform in space if they fit, else in the fleet's metric."""
         goals = self._pushed(self._plain(number), slack)
         return self._pushed(self._stretched(number), slack) if goals is None else goals
 
@@ -150,7 +150,7 @@ class Strokes:
         return Lit(goals, len(goals), True) if free else None
 
     def most(self) -> tuple[Array, bool]:
-        """Return as many goals as are found to fit, and whether they are in a lattice.
+        """Return as many goals as are found to fit, (n, 2), and whether they are in a lattice.
 
         Either they are thinned out, from as many as strokes of this area and length could hold, or they are
         the places of a lattice within the strokes. Neither depends on the number of drones.

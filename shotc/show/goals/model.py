@@ -34,18 +34,18 @@ class CloudBody:
     mesh: ModelMesh
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return its points, or a random selection if there are more than ``count``."""
+        """Return its points (M, 3), or a random selection if there are more than ``count``."""
         points = self.mesh.corners
         if len(points) <= count:
             return points
         return points[np.sort(rng.choice(len(points), count, replace=False))]
 
     def encloses(self, place: Array) -> bool:
-        """Return False: a point cloud has no inside."""
+        """Return False for a place (3,): a point cloud has no inside."""
         return False
 
     def colors(self, places: Array) -> Colors | None:
-        """Return the colours of the nearest points."""
+        """Return the colours of the points nearest to places (M, 3)."""
         return _nearest_colors(self.mesh, places)
 
 
@@ -59,7 +59,9 @@ class MeshBody:
     parity: bool
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points of the volume or of the surface, None for the outline: a mesh has no drawn edges."""
+        """Return points (M, 3) of the volume or of the surface, None for the outline: a mesh has no drawn
+        edges.
+        """
         if fill == "outline":
             return None
         corners = self.mesh.corners[self.mesh.triangles]
@@ -72,13 +74,13 @@ class MeshBody:
         return drawn(columns, inside, count, rng)
 
     def encloses(self, place: Array) -> bool:
-        """Tell whether a place is inside, if the mesh has an inside."""
+        """Tell whether a place (3,) is inside, if the mesh has an inside."""
         corners = self.mesh.corners[self.mesh.triangles]
         inside = spans(through_triangles(column_at(place[:2]), corners), self.parity)
         return bool(np.any((inside.low < place[2]) & (place[2] < inside.high)))
 
     def colors(self, places: Array) -> Colors | None:
-        """Return the colours of the nearest corners."""
+        """Return the colours of the corners nearest to places (M, 3)."""
         return _nearest_colors(self.mesh, places)
 
 

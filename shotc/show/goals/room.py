@@ -71,7 +71,9 @@ class DisplaySurroundings:
         return np.asarray(np.max(rises, axis=0))
 
     def hold(self, before: Array, after: Array) -> Array:
-        """Return pushed goals, but keep the old position of those whose clearance would become too small."""
+        """Return pushed goals (n, 3), but keep the old position of those whose clearance would become too
+        small.
+        """
         lacking = self.lack(after)
         if not (lacking > 0).any():
             return after

@@ -21,12 +21,12 @@ class SolidBody:
     axes: Array
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points; None for the outline of a solid other than a box, which alone has edges."""
+        """Return points (M, 3); None for the outline of a solid other than a box, which alone has edges."""
         local = _drawn(self.source, fill, count, rng)
         return None if local is None else np.array(self.source.centre) + local @ self.axes
 
     def encloses(self, place: Array) -> bool:
-        """Tell whether a place is inside."""
+        """Tell whether a place (3,) is inside."""
         x, y, z = self.axes @ (place - np.array(self.source.centre))
         if isinstance(self.source, Sphere):
             return bool(x * x + y * y + z * z < self.source.radius**2)
@@ -35,7 +35,7 @@ class SolidBody:
         return bool(np.all(np.abs([x, y, z]) < np.array(self.source.size) / 2.0))
 
     def colors(self, places: Array) -> Colors | None:
-        """Return None: the mission sets the colour."""
+        """Return None for places (M, 3): the mission sets the colour."""
         return None
 
 

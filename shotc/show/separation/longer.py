@@ -52,7 +52,10 @@ class MoveBetweenStops:
 
     @staticmethod
     def of(flight: FleetTrajectory, breaks: Array, reference: Array) -> MoveBetweenStops:
-        """Return the stretch between two stops of a flight."""
+        """Return the stretch between two stops of a flight, with its breaks and control points as above.
+
+        breaks, reference : shapes (P + 1,) and (n, P + 3, 3)
+        """
         start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
         inside = [picture for picture in flight.shown if start <= picture.start <= end]
         picture = inside[-1] if inside else None
@@ -72,7 +75,7 @@ class MoveBetweenStops:
         return 1 if self.key == "period" else len(self.breaks) - 1
 
     def lasting(self, seconds: float) -> Array:
-        """Return breaks for a written duration, as ``assign-goals`` makes them."""
+        """Return breaks (P + 1,) for a written duration, as ``assign-goals`` makes them."""
         piece = seconds / self.pieces
         return np.array([round(float(self.breaks[0]) + k * piece, 9) for k in range(len(self.breaks))])
 

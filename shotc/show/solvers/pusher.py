@@ -72,7 +72,10 @@ class Pusher:
         return np.linspace(self.breaks[0], self.breaks[-1], count + 1)
 
     def crowded(self, coef: Array, distance: float) -> Index:
-        """Return the drones that come nearer to another one than ``distance`` at samples."""
+        """Return the drones that come nearer to another one than ``distance`` at samples.
+
+        coef : control points, shape (n, K, 3)
+        """
         times = self.samples(coef)
         at = places(self.breaks, coef, times) * self.scale
         crowded_drones = [self.pairs(at[:, k], distance) for k in range(len(times))]

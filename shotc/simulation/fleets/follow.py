@@ -71,7 +71,7 @@ class FleetReference:
 
     @staticmethod
     def of(breaks: Array, coef: Array) -> FleetReference:
-        """Return the reference of splines as in ``geom.fleet_spline``."""
+        """Return the reference of splines as in ``geom.fleet_spline``; coef : shape (n, P + 3, 3)."""
         return FleetReference(breaks, pieces(breaks, coef), places_of(breaks, coef))
 
     def each(self, times: Array) -> PlannedMotion:

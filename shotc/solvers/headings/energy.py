@@ -52,7 +52,7 @@ class Energy:
         return z[len(self.at) :]
 
     def of(self, value: Array, slope: Array) -> float:
-        """Return the energy of the cubic with these values and slopes."""
+        """Return the energy of the cubic with these values and slopes, shape (K,) each."""
         z = np.concatenate([value, slope])
         return float(z @ self.hessian @ z)
 

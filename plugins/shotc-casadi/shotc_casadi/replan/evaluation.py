@@ -160,7 +160,7 @@ class Evaluation:
         return self._moved(self._motion, inputs)
 
     def step(self, inputs: Array) -> Rollout:
-        """Return the same, and write the programme of a step from it."""
+        """Return the motion of inputs (N, U), and write the programme of a step from it."""
         return self._moved(self._step, inputs)
 
     def _moved(self, call: _Call, inputs: Array) -> Rollout:

@@ -68,7 +68,7 @@ class StaticObstacles:
         self._discs = np.array([solid.disc for solid in solids]).reshape(-1, 3)
 
     def near(self, place: Array, distance: float) -> tuple[SolidConstraint, ...]:
-        """Return the solids within a way of ``distance`` metres; all if there are few."""
+        """Return the solids within a way of ``distance`` metres from a place (3,); all if there are few."""
         if len(self._rooms) <= LEAST_CONSTRAINTS:
             return tuple(self._rooms)
         x, y, radius = self._discs.T

@@ -65,7 +65,7 @@ class FleetFlight:
         return [(p.start, p.end) for p in self.track.phases if p.name not in UPRIGHT]
 
     def verticals(self) -> Iterator[tuple[list[Span], Array]]:
-        """Yield the times of take-off, and of landing, if there are any, and the pads below.
+        """Yield the times of take-off, and of landing, if there are any, and the pads below, shape (n, 3).
 
         In a fleet that returns to any pad, two drones that land on the same one would violate their
         separation.
