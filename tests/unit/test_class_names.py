@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.support.modules import modules
+
 RECORDED = {"Model"}
 """``ir.show.Model`` keeps its name, since plans have it; ``spec.model.Model`` is no word of the field."""
 
@@ -16,9 +16,9 @@ RECORDED = {"Model"}
 @pytest.mark.long
 def test_no_two_public_classes_have_one_name() -> None:
     places = defaultdict(list)
-    for path in [*(ROOT / "shotc").rglob("*.py"), *(ROOT / "plugins").glob("*/shotc_*/**/*.py")]:
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for path, module in modules().items():
+        for node in module.body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                places[node.name].append(path.relative_to(ROOT).as_posix())
+                places[node.name].append(path.as_posix())
     assert len(places) > 700
     assert {name: where for name, where in places.items() if len(where) > 1 and name not in RECORDED} == {}

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.support.modules import modules
+
 UNITS = re.compile(r"K?M[23]?|[CDM]M|IN|PT|PX|DB|M?S[23]?|HZ|FPS|RAD2?|DEG(?:REES)?|WH|EPSG")
 QUANTITIES = re.compile(
     "SHARE|RATIO|WEIGHT|PRICE|COST|TOLERANCE|VARIANCE|RESIDUAL|CHI2|DPI|ASPECT|FLATTENING|SLOPE|SINE|COSINE"
@@ -54,13 +54,8 @@ def _is_vague(name: str, value: float) -> bool:
 
 @pytest.mark.long
 def test_numbers_have_a_unit_or_a_quantity() -> None:
-    paths = [*(ROOT / "shotc").rglob("*.py"), *(ROOT / "plugins").glob("*/shotc_*/**/*.py")]
-    found = {
-        f"{path.relative_to(ROOT)}: {name}"
-        for path in paths
-        for name in vague(ast.parse(path.read_text(encoding="utf-8")))
-    }
-    assert len(paths) > 900
+    found = {f"{path}: {name}" for path, module in modules().items() for name in vague(module)}
+    assert len(modules()) > 900
     assert found == set()
 
 

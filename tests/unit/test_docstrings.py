@@ -5,29 +5,19 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 
 import pytest
 
 from shotc.cli.app import COMMANDS
+from tests.support.modules import modules
 from tests.support.raised_errors import Place, Source, sources
 
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "shotc"
-PLUGINS = sorted((ROOT / "plugins").glob("*/shotc_*"))
 SIZE = r"(?:\.\.\.|\d|[A-Za-z]\w*(?: [\w+*-]+)*)"
 SHAPE = re.compile(
     rf"\bshapes?\b|\({SIZE}(?:, {SIZE})+\)|\({SIZE},\)|\(\.\.\.\)|[Aa]rguments as (?:in|of) ``"
 )
 """The word, or a shape as it is written: (P, 6, 3), (..., 3), (M,); or where they are stated."""
-
-
-@cache
-def modules() -> dict[Path, ast.Module]:
-    """Return the modules of shotc and its plugins, as trees."""
-    paths = [p for folder in (PACKAGE, *PLUGINS) for p in sorted(folder.rglob("*.py"))]
-    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in paths}
 
 
 def functions(module: ast.Module) -> Iterator[ast.FunctionDef]:
@@ -49,7 +39,7 @@ def states_shape(function: ast.FunctionDef) -> bool:
 @pytest.mark.long
 def test_public_functions_with_arrays_state_their_shapes() -> None:
     found = [
-        (f"{path.relative_to(ROOT)}: {function.name}", states_shape(function))
+        (f"{path}: {function.name}", states_shape(function))
         for path, module in modules().items()
         for function in functions(module)
     ]
@@ -96,7 +86,7 @@ def unstated(source: Source, place: Place) -> list[str]:
 @pytest.mark.long
 def test_public_functions_that_raise_state_what() -> None:
     missing = {
-        f"{path.relative_to(ROOT)}: {place}": unstated(source, place)
+        f"{path}: {place}": unstated(source, place)
         for path, source in sources(modules()).items()
         for place in source.functions
         if place.public and source.raised(place)

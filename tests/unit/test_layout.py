@@ -11,8 +11,9 @@ OTHERS = {"diag/golden", "experiments"}
 
 
 def test_every_folder_of_tests_has_the_package_that_it_tests() -> None:
-    folders = {path.parent.relative_to(HERE).as_posix() for path in HERE.rglob("*") if path.suffix != ".pyc"}
-    tested = {f for f in folders if not f.endswith("__pycache__")} - OTHERS
+    # A folder that was moved away may still hold compiled modules.
+    files = (path for path in HERE.rglob("*") if path.is_file() and path.suffix != ".pyc")
+    tested = {path.parent.relative_to(HERE).as_posix() for path in files} - OTHERS
     assert len(tested) > 40
     assert [f for f in sorted(tested) if not (PACKAGE / f).is_dir()] == []
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.support.modules import modules
+
 LEAST = 3
 ARRAYS = frozenset({"Array", "FloatArray", "IntArray", "Index", "Mask", "np.ndarray", "Piecewise"})
 """Several of these in a tuple are seldom of one meaning: coordinates of points have a name, ``Offset``."""
@@ -50,14 +50,8 @@ def _is_mixed(node: ast.Subscript) -> bool:
 
 @pytest.mark.long
 def test_functions_take_and_give_named_records() -> None:
-    paths = [p for folder in ("shotc", "plugins") for p in sorted((ROOT / folder).rglob("*.py"))]
-    found = {
-        f"{path.relative_to(ROOT)}: {name}"
-        for path in paths
-        if "tests" not in path.relative_to(ROOT).parts
-        for name in nameless(ast.parse(path.read_text(encoding="utf-8")))
-    }
-    assert len(paths) > 900
+    found = {f"{path}: {name}" for path, module in modules().items() for name in nameless(module)}
+    assert len(modules()) > 900
     assert found == set()
 
 

@@ -51,9 +51,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 COARSEST_RATIO = 16.0  # largest factor on the tolerances; framing is loosened first, then position
-COARSENESS_HALVINGS = (
-    6  # bisection steps of the search for the least coarseness that fits into the autopilot's memory
-)
+COARSENESS_HALVINGS = 6  # steps of the search for the least coarseness that fits the autopilot's memory
 
 
 class MavlinkEmitter:

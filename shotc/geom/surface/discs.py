@@ -11,12 +11,11 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.surface.boards import Billboards
-from shotc.geom.surface.triangles import cross, dot
+from shotc.geom.surface.triangles import TINY_SQUARE, cross, dot
 
 STEEP_COSINE = 0.1
 """Cosine of the angle between a line of sight and a billboard's normal, below which all its cells are
 tested."""
-_TINY_SQUARE = 1e-300
 
 
 def stopped_by_discs(
@@ -40,7 +39,7 @@ def stopped_by_discs(
     its, to = frame[pair], offset[pair]
     ray = boards.corner[its] - boards.eye[its]
     ray = ray + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
-    square = np.maximum(dot(ray, ray), _TINY_SQUARE)
+    square = np.maximum(dot(ray, ray), TINY_SQUARE)
     along = dot(to, ray) / square
     off = dot(to, to) - along**2 * square
     met = (along > 0.0) & (off <= radius**2) & (along + radius / np.sqrt(square) < reach[its, a, b])
@@ -58,19 +57,19 @@ def _cells_about(
     projection.
     """
     normal = cross(boards.right, boards.up)
-    normal /= np.maximum(np.sqrt(dot(normal, normal)), _TINY_SQUARE)[:, None]
+    normal /= np.maximum(np.sqrt(dot(normal, normal)), TINY_SQUARE)[:, None]
     corner = boards.corner - boards.eye
     depth = dot(normal, corner)
     side = np.sign(depth)
     far, deep = np.sqrt(dot(offset, offset)), dot(offset, normal[frame]) * side[frame]
-    cosine = (deep - radius) / np.maximum(far, _TINY_SQUARE)
+    cosine = (deep - radius) / np.maximum(far, TINY_SQUARE)
     clear = cosine > STEEP_COSINE
-    share = np.where(clear, deep / np.maximum(np.abs(depth), _TINY_SQUARE)[frame], 1.0)
+    share = np.where(clear, deep / np.maximum(np.abs(depth), TINY_SQUARE)[frame], 1.0)
     on = offset / share[:, None] - corner[frame]
     reach = radius / np.where(clear, share * cosine, 1.0)
     first, last = np.zeros((2, len(offset), 2), dtype=np.intp)
     for k, edge in enumerate((boards.right, boards.up)):
-        square = np.maximum(dot(edge, edge), _TINY_SQUARE)[frame]
+        square = np.maximum(dot(edge, edge), TINY_SQUARE)[frame]
         at, half = dot(on, edge[frame]) / square, reach / np.sqrt(square)
         low, high = np.ceil((at - half) * n - 0.5), np.floor((at + half) * n - 0.5)
         first[:, k] = np.where(clear, np.clip(low, 0, n), 0)

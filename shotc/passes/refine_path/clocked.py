@@ -128,10 +128,12 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
         distance = float(np.abs(was.ctrl[k, k] - now.ctrl[k, k]).max())
         if distance > JOINT_TOLERANCE:
             yield f"it {name} {distance:.3g} from where the guide does (m or rad)"
-    motions = [np.array([state_at(curve, t)[1:] for t in (curve.start, curve.end)]) for curve in (was, now)]
-    moving = float(np.abs(motions[1] - motions[0]).max())
+    guide, own = (
+        np.array([state_at(curve, t)[1:] for t in (curve.start, curve.end)]) for curve in (was, now)
+    )
+    moving = float(np.abs(own - guide).max())
     if moving > REST_TOLERANCE:
-        still = "at rest" if np.abs(motions[0]).max() <= REST_TOLERANCE else "with the guide's motion"
+        still = "at rest" if np.abs(guide).max() <= REST_TOLERANCE else "with the guide's motion"
         yield f"it does not begin and end {still}: {moving:.3g} (m/s, rad/s, m/s^2 or rad/s^2)"
 
 

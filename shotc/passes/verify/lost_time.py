@@ -131,16 +131,17 @@ def _between(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator
             # The constant of each of many short legs would add up.
             lost.append((lasts - SLOWER_RATIO * scale * least, legs[0].start))
         if not stretch.timed:
-            lost += _rests([leg for leg in legs if leg.least > 0.0])
+            lost += _rests(flight.track.curve, [leg for leg in legs if leg.least > 0.0])
     worst, when = max(lost)
     limit = Limit(BETWEEN, KEYFRAMES_S, "s", placed.shot.path, shot=placed.shot.id)
     yield claim(flight, limit, WorstValue(worst, when, "sampled"))
 
 
-def _rests(legs: Sequence[_Leg]) -> Iterator[tuple[float, float]]:
+def _rests(curve: Piecewise, legs: Sequence[_Leg]) -> Iterator[tuple[float, float]]:
     """Yield the seconds of rest on all of some legs, with the start of the one that has most of them."""
-    if legs:
-        yield sum(leg.idle for leg in legs), max(legs, key=lambda leg: leg.idle).start
+    rests = [(_rest(curve, (leg.start, leg.end)), leg.start) for leg in legs]
+    if rests:
+        yield sum(rest for rest, _ in rests), max(rests, key=lambda rest: rest[0])[1]
 
 
 class _Stretch(NamedTuple):
@@ -165,15 +166,16 @@ def _stretches(placed: PlacedShot) -> Iterator[_Stretch]:
 
 
 class _Leg(NamedTuple):
-    """A way from one keyframe to the next: its mission time, and its flown and least seconds.
-
-    idle : seconds of rest on it
-    """
+    """A way from one keyframe to the next: its mission times, and its least seconds."""
 
     start: float
-    lasts: float
+    end: float
     least: float
-    idle: float
+
+    @property
+    def lasts(self) -> float:
+        """Its flown seconds."""
+        return self.end - self.start
 
 
 def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretch: _Stretch) -> list[_Leg]:
@@ -187,10 +189,7 @@ def _legs(flight: JudgedFlight, placed: PlacedShot, at: dict[int, float], stretc
         begins = [at[i] + (holds[i] if i == a else 0.0) for i in range(a, b)]
         ends = [at[i] for i in range(a + 1, b + 1)]
         whole = least_times(flight.track.curve, (begins[0], ends[-1]), flight.drone, share, smoother)
-        legs += [
-            _Leg(t, u - t, whole.between(t, u), _rest(flight.track.curve, (t, u)))
-            for t, u in zip(begins, ends, strict=True)
-        ]
+        legs += [_Leg(t, u, whole.between(t, u)) for t, u in zip(begins, ends, strict=True)]
     return legs
 
 

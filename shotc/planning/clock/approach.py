@@ -15,6 +15,7 @@ from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import NextLeg, Transfer, When, choose
 from shotc.planning.clock.detours import Meanwhile, Transit, ways_to
 from shotc.planning.clock.ends import ASIDES, END_REQUIREMENTS, FROM_AFAR, EndRequirement, leading_aside
+from shotc.planning.clock.flights import LATE_S
 from shotc.planning.clock.run_up import Departure, way_time
 from shotc.planning.clock.shot import NoMotion, OtherVehicles, timed_shot
 from shotc.planning.clock.starts import (
@@ -33,7 +34,6 @@ from shotc.planning.path.shots import Failure, PlannedShot
 from shotc.planning.timing.timed_leg import leg_time
 from shotc.rounding import up
 
-LATE_S = 1e-6  # seconds
 AMPLE_RATIO = 1.5  # time that a transfer without a deadline may take, over its direct duration
 START_BISECTIONS = 5  # tries of an earlier start without a stop
 
@@ -145,7 +145,14 @@ class Approach:
             return transfer
         return Reached(placed, shot, transfer, transfer.end - curve_start, requirements[0].ends_aside)
 
-    def without_stop(self, late: Reached) -> Reached | None:
+    def reached_at(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
+        """Plan a shot for a fixed start: as ``reached``, but without a stop where it would be late."""
+        found = self.reached(placed, start)
+        if isinstance(found, Reached) and found.late > LATE_S:
+            return self._without_stop(found) or found
+        return found
+
+    def _without_stop(self, late: Reached) -> Reached | None:
         """Return a shot that is late, with a run-up from where the drone is, if it is in time then."""
         lift = [] if self.legs else [take_off(self.flight, late.shot.leg.pose)]
         ready = self.clock + sum(leg_time(self.drone, leg) for leg in lift)
@@ -162,9 +169,7 @@ class Approach:
             start = up(0.5 * (late + there.shot.leg.start))
             if start > there.shot.leg.start - CLOSE_S:
                 break
-            found = self.reached(placed, start)
-            if isinstance(found, Reached) and found.late > LATE_S:
-                found = self.without_stop(found) or found
+            found = self.reached_at(placed, start)
             if isinstance(found, Reached) and found.late <= LATE_S and found.transfer.met is None:
                 there = found
             else:

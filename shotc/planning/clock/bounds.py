@@ -78,16 +78,10 @@ def with_ends(breaks: Array, coef: Array, begin: Array | None, end: Array | None
     coef : shape (P + 5, 3)
     """
     exact = coef.copy()
-    if begin is not None:
-        rows = np.array(
-            [control_rows(breaks, order).weight[0, :STATE_ORDERS] for order in range(STATE_ORDERS)]
-        )
-        exact[:STATE_ORDERS] = np.linalg.solve(rows, begin)
-    if end is not None:
-        rows = np.array(
-            [control_rows(breaks, order).weight[-1, -STATE_ORDERS:] for order in range(STATE_ORDERS)]
-        )
-        exact[-STATE_ORDERS:] = np.linalg.solve(rows, end)
+    for at, own, state in ((0, slice(None, STATE_ORDERS), begin), (-1, slice(-STATE_ORDERS, None), end)):
+        if state is not None:
+            rows = [control_rows(breaks, order).weight[at, own] for order in range(STATE_ORDERS)]
+            exact[own] = np.linalg.solve(np.array(rows), state)
     return exact
 
 

@@ -17,11 +17,11 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import ClockDeviation, Leg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.approach import LATE_S, Approach
+from shotc.planning.clock.approach import Approach
 from shotc.planning.clock.departure import Transfer, When, choose
 from shotc.planning.clock.detours import ways_home
 from shotc.planning.clock.ends import leading_aside
-from shotc.planning.clock.flights import flight
+from shotc.planning.clock.flights import LATE_S, flight
 from shotc.planning.clock.run_up import lead_in
 from shotc.planning.clock.shot import NoMotion, OtherVehicles
 from shotc.planning.clock.starts import (
@@ -215,9 +215,7 @@ class Itinerary:
             elif isinstance(reached, NoMotion):
                 reached = later(self._here.reached, placed, start) or reached
         else:
-            reached = self._here.reached(placed, fixed)
-            if isinstance(reached, Reached) and reached.late > LATE_S:
-                reached = self._here.without_stop(reached) or reached
+            reached = self._here.reached_at(placed, fixed)
         if not isinstance(reached, Reached):
             return reached
         trouble = self._late(placed, reached)

@@ -18,12 +18,11 @@ from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.ends import EndRequirement
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.run_up import Departure
-from shotc.planning.clock.starts import SLIGHT_M, Reached, ReachFrom
+from shotc.planning.clock.starts import ROUNDING_S, SLIGHT_M, Reached, ReachFrom
 
 TURN_TRIES = 3  # departures that are tried until the turn before them is known
 SPARE_SHARE = 0.05  # of a turn's time, by which the next departure is later: another one has another turn
 SHORTEST_S = 1.0  # least seconds of a way to a film
-ROUNDING_S = 1e-6  # seconds
 SAME_RAD = 1e-9  # rad
 
 

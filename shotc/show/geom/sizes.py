@@ -41,10 +41,7 @@ def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
 def raised(source: Source, floor: float) -> Source:
     """Return a picture raised to above a height, rounded up to a decimetre, if its centre is known."""
     lack = floor - lowest(balls(source)) if balls(source) else 0.0
-    if lack <= 1e-6 or source.centre is None:
-        return source
-    x, y, z = source.centre
-    return source._replace(centre=(x, y, up(z + lack, 1)))
+    return source if lack <= 1e-6 else _higher(source, lack)
 
 
 def size_words(before: Source, after: Source) -> str:
@@ -64,10 +61,14 @@ def lifted(picture: Picture, metres: float) -> Picture:
     """Return a picture moved up by some metres, rounded up to a decimetre, if its centre is known; unchanged
     for none or less.
     """
-    if metres <= 0.0 or picture.source.centre is None:
-        return picture
-    x, y, z = picture.source.centre
-    return picture._replace(source=picture.source._replace(centre=(x, y, up(z + metres + SPARE_M, 1))))
+    return picture if metres <= 0.0 else picture._replace(source=_higher(picture.source, metres + SPARE_M))
+
+
+def _higher(source: Source, metres: float) -> Source:
+    if source.centre is None:
+        return source
+    x, y, z = source.centre
+    return source._replace(centre=(x, y, up(z + metres, 1)))
 
 
 def _sizes(source: Source) -> str:

@@ -44,7 +44,7 @@ OFF_SIZE_SHARE = 0.1  # relative error of a size
 OFF_VIEW_RAD = 0.09  # rad
 SIZES_APART_RATIO = 2.0  # factor by which a subject may be smaller, to have others in the picture
 OUT_HALF_FRAMES = 0.02  # half frames by which a whole subject may reach out of the frame
-ROUNDING_SHARE = 1e-6
+ROUNDING_TOLERANCE = 1e-6  # metres, and share of a size
 
 
 def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = True) -> Iterator[Diagnostic]:
@@ -96,7 +96,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     least = nearest(needed, toward, near)
     x, y, z = (c * least for c in toward)
     largest = size_from(needed, lens_of(drone), (x, y, z))
-    if largest >= subject.size * (1 - ROUNDING_SHARE):
+    if largest >= subject.size * (1 - ROUNDING_TOLERANCE):
         return None
     if isnan(largest):
         return _never_in_its_place(mission, shot, subject, advise)
@@ -150,7 +150,7 @@ def _too_low(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagno
     heights = [pose[2] - mission.ground(pose[0], pose[1]) for pose in course.poses]
     z = min(heights)
     shot, subject = _alone_at(course, heights.index(z))
-    if z >= need - ROUNDING_SHARE:
+    if z >= need - ROUNDING_TOLERANCE:
         return None
     where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
     return Diagnostic(
